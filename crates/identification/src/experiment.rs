@@ -7,6 +7,7 @@ use super::parameters::{Slot, Unknowns};
 use super::pyramid::Pyramid;
 use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING};
 use crate::measured_curve::Measured;
+use crate::numbers::room_for_the_noise;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::scene::Friction;
@@ -127,12 +128,12 @@ impl Experiment {
         matches!(self.data, Data::Imprint(_) | Data::ImprintNumbers(_))
     }
 
-    /// Variance of the sum of squares of its `count` differences because the noise was taken from few points:
-    /// with ν degrees of freedom the variance of a noise is off by √(2/ν) of itself.
-    pub fn variance_of_the_noise(&self, count: usize) -> f64 {
+    /// Growth of the largest sum of squares of its `count` differences because the noise was taken from few
+    /// points.
+    pub fn room_for_the_noise(&self, count: usize) -> f64 {
         match &self.data {
             Data::Imprint(Imprint { noise_freedom: Some(freedom), .. }) => {
-                2.0 * (count as f64).powi(2) / freedom
+                room_for_the_noise(count, *freedom)
             }
             _ => 0.0,
         }

@@ -7,12 +7,12 @@ use crate::identifiability::{
     Decided, NextExperiment, NullDirection, along_coordinate, decided, deviations, identified,
     next_experiment, null_direction,
 };
-use crate::levenberg_marquardt::Minimum;
+use crate::levenberg_marquardt::{Minimum, minimise};
 use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
 use crate::objective::{Misfit, Objective};
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
-use crate::profile_likelihood::{Interval, Profile};
+use crate::profile_likelihood::{GROWTH, Interval, Profile};
 use crate::verdict::verdict;
 use indexmap::IndexMap;
 use nalgebra::DVector;
@@ -73,7 +73,8 @@ pub fn infer(
     let others = allowed_minima(&objective, unknowns, best);
     let metals = branches(&objective, &bounds, best, &others);
     let all: Vec<Minimum> = std::iter::once(best).chain(&others).cloned().collect();
-    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
+    let lowest = lowest_without_nuisances(&objective, unknowns, best);
+    let profile = Profile { residuals: &objective, bounds: &bounds, lowest };
     let interval = |minima: &[Minimum], i: usize| {
         let along = along_coordinate(i, &deviations, &correlation);
         Interval::from_ends(&profile.ends_of_coordinate(minima, i, deviations[i], &along))
@@ -134,6 +135,19 @@ pub fn infer(
         residual,
         samples: samples.iter().map(shown).collect(),
     })
+}
+
+/// The sum of squares from which it grows to the end of an interval: while first touch and compliance may be
+/// 0, that of the fit that holds them there. Growth from the lower sum with them free would take metals out
+/// of an interval for no more than an unknown that was added.
+fn lowest_without_nuisances(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum) -> f64 {
+    let held = unknowns.without_nuisances();
+    if held.parameters == unknowns.parameters {
+        return best.chi2;
+    }
+    let bounds: Vec<[f64; 2]> = held.parameters.iter().map(|p| p.bounds).collect();
+    let without = minimise(objective, &best.point, &bounds).chi2;
+    if without <= best.chi2 + GROWTH { without.max(best.chi2) } else { best.chi2 }
 }
 
 /// Correlation of an unknown of the metal with friction from which friction decides it.

@@ -28,8 +28,8 @@ pub struct Misfit {
     pub chi2: f64,
     /// Their number.
     pub count: usize,
-    /// Variance of that sum because the noise was taken from few points.
-    of_the_noise: f64,
+    /// Growth of the largest sum that chance allows because the noise was taken from few points.
+    room: f64,
 }
 
 impl Misfit {
@@ -38,13 +38,13 @@ impl Misfit {
         Misfit {
             chi2: all.iter().map(|m| m.chi2).sum(),
             count: all.iter().map(|m| m.count).sum(),
-            of_the_noise: all.iter().map(|m| m.of_the_noise).sum(),
+            room: all.iter().map(|m| m.room).sum(),
         }
     }
 
     /// True where it is no more than chance allows with so many `unknowns`.
     pub fn fits(&self, unknowns: usize) -> bool {
-        fits(self.chi2, self.count as i64 - unknowns as i64, self.of_the_noise)
+        fits(self.chi2, self.count as i64 - unknowns as i64, self.room)
     }
 }
 
@@ -80,7 +80,7 @@ impl<'a> Objective<'a> {
             let count = e.differences(self.unknowns, point, false)?.len();
             let chi2 = all[first..first + count].iter().map(|x| x * x).sum();
             first += count;
-            Some(Misfit { chi2, count, of_the_noise: e.variance_of_the_noise(count) })
+            Some(Misfit { chi2, count, room: e.room_for_the_noise(count) })
         });
         each.collect()
     }
