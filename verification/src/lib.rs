@@ -2,7 +2,8 @@
 //!
 //! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of
 //! `examples/` write with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`,
-//! `thick_wall`, `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with their `truth`),
+//! `thick_wall`, `manufactured`. Other codes: `calibration`. Metals
+//! that are found again: `twins`. Bodies: `coverage_scenes` (with their `truth`),
 //! `test_meshes`, `single_asperity`, `friction`. `single_increment` solves one increment.
 
 pub mod contact;
@@ -13,6 +14,8 @@ pub mod thick_wall;
 pub mod uniaxial;
 
 pub mod calibration;
+
+pub mod twins;
 
 pub mod coverage_scenes;
 mod measured_scenes;
