@@ -2,8 +2,9 @@
 //!
 //! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of
 //! `examples/` write with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`,
-//! `slip_lines`, `thick_wall`, `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with
-//! their `truth`), `test_meshes`, `single_asperity`, `friction`. `single_increment` solves one increment.
+//! `slip_lines`, `thick_wall`, `manufactured`. Other codes: `calibration`. Metals that are found again:
+//! `twins`. Bodies: `coverage_scenes` (with their `truth`), `test_meshes`, `single_asperity`, `friction`.
+//! `single_increment` solves one increment.
 
 pub mod contact;
 pub mod manufactured;
@@ -14,6 +15,8 @@ pub mod thick_wall;
 pub mod uniaxial;
 
 pub mod calibration;
+
+pub mod twins;
 
 pub mod coverage_scenes;
 mod measured_scenes;

@@ -20,14 +20,15 @@ const PLACES_BETWEEN: usize = 7;
 const SAME_PLACE_SHARE: f64 = 0.01;
 
 /// Minima from the best of `points` and from good ones far apart, the lowest one first.
-pub(crate) fn minima(objective: &Objective<'_>, unknowns: &Unknowns, points: &[Vec<f64>]) -> Vec<Minimum> {
+pub(crate) fn minima(objective: &Objective<'_>, points: &[Vec<f64>]) -> Vec<Minimum> {
     let bounds = objective.bounds();
     let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(objective, p), p)).collect();
     ranked.retain(|r| r.0.is_finite());
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let better: Vec<&Vec<f64>> = ranked.iter().take(BETTER_POINTS).map(|r| r.1).collect();
-    let apart = far_apart(&better, unknowns, STARTS_APART);
-    let starts: Vec<&Vec<f64>> = better.iter().take(STARTS).copied().chain(&apart).collect();
+    let better: Vec<&[f64]> = ranked.iter().take(BETTER_POINTS).map(|r| r.1.as_slice()).collect();
+    // the best of them is the first one far apart
+    let apart = far_apart(&better, STARTS_APART).into_iter().filter(|k| *k >= STARTS);
+    let starts: Vec<&[f64]> = (0..STARTS.min(better.len())).chain(apart).map(|k| better[k]).collect();
     let mut found: Vec<Minimum> =
         starts.par_iter().map(|p| minimise(objective, p, &bounds)).filter(|m| m.chi2.is_finite()).collect();
     found.sort_by(|a, b| a.chi2.total_cmp(&b.chi2));
@@ -38,7 +39,7 @@ pub(crate) fn minima(objective: &Objective<'_>, unknowns: &Unknowns, points: &[V
 /// grown by less than that of a 95 % interval; each place once, the lowest one first.
 pub fn allowed_minima(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum) -> Vec<Minimum> {
     let mut kept = vec![best.clone()];
-    for minimum in minima(objective, unknowns, &sobol_points(&unknowns.parameters, FIRST_POINTS)) {
+    for minimum in minima(objective, &sobol_points(&unknowns.parameters, FIRST_POINTS)) {
         let new = kept.iter().all(|other| !is_near(&minimum.point, &other.point, unknowns));
         if minimum.chi2 < best.chi2 + GROWTH && new {
             kept.push(minimum);

@@ -60,6 +60,11 @@ impl Covariance {
     }
 }
 
+/// ln det of a factored matrix.
+pub fn log_determinant(factor: &Cholesky<f64, Dyn>) -> f64 {
+    2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>()
+}
+
 impl Experiment {
     /// Relative standard deviations of what finite elements expect at `point`: of the force, of the slope
     /// where unloading begins, of the recovery.
@@ -73,6 +78,14 @@ impl Experiment {
     pub fn told_deviations(&self) -> [f64; 3] {
         // the stated errors are 95 % bounds
         self.errors.map(|error| (0.5 * error).hypot(self.model_error))
+    }
+
+    /// Growth of ln det C over that of a computed metal, by what the emulator leaves open at `point`.
+    pub fn growth(&self, unknowns: &Unknowns, point: &[f64]) -> Option<f64> {
+        let covariance = self.covariance(unknowns, point)?;
+        let open = covariance.factor(self.model_deviations(unknowns, point)?)?;
+        let told = covariance.factor(self.told_deviations())?;
+        Some(log_determinant(&open) - log_determinant(&told))
     }
 
     /// Covariance of the differences at `point`, in its parts.

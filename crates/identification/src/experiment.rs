@@ -7,6 +7,7 @@ use super::parameters::{Slot, Unknowns};
 use super::pyramid::Pyramid;
 use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING};
 use crate::measured_curve::Measured;
+use crate::numbers::room_for_the_noise;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::scene::Friction;
@@ -125,6 +126,17 @@ impl Experiment {
     /// True where the imprint was measured.
     pub fn is_imprint(&self) -> bool {
         matches!(self.data, Data::Imprint(_) | Data::ImprintNumbers(_))
+    }
+
+    /// Growth of the largest sum of squares of its `count` differences because the noise was taken from few
+    /// points.
+    pub fn room_for_the_noise(&self, count: usize) -> f64 {
+        match &self.data {
+            Data::Imprint(Imprint { noise_freedom: Some(freedom), .. }) => {
+                room_for_the_noise(count, *freedom)
+            }
+            _ => 0.0,
+        }
     }
 
     /// True where the atlas of sharp cones is the trend: curves and their numbers under one, smooth or of

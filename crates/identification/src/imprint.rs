@@ -58,6 +58,8 @@ pub struct Imprint {
     pub noise: f64,
     /// Distance over which heights are off alike, m; 0: each by itself.
     pub correlation_length: f64,
+    /// Degrees of freedom of the noise where the far field tells it; `None` where it is stated or assumed.
+    pub noise_freedom: Option<f64>,
     /// Remarks.
     pub notes: Vec<String>,
 }
@@ -108,7 +110,7 @@ impl Imprint {
         let points = averaged(&points);
         let mut notes = Vec::new();
         let far = far_field(&points, radius);
-        let (noise, correlation_length) = far.unwrap_or((ASSUMED_NOISE_SHARE * depth, 0.0));
+        let told = far.unwrap_or(FarField { noise: ASSUMED_NOISE_SHARE * depth, ..FarField::default() });
         if far.is_none() && stated.noise.is_none() {
             notes.push(format!(
                 "the imprint has fewer than {MIN_FAR_POINTS} points beyond {FAR_RADII} contact radii that would tell its noise: {} % of the depth is taken; state it",
@@ -116,8 +118,9 @@ impl Imprint {
             ));
         }
         Ok(Imprint {
-            noise: stated.noise.unwrap_or(noise).max(MIN_NOISE_SHARE * depth),
-            correlation_length: stated.correlation_length.unwrap_or(correlation_length),
+            noise: stated.noise.unwrap_or(told.noise).max(MIN_NOISE_SHARE * depth),
+            correlation_length: stated.correlation_length.unwrap_or(told.correlation_length),
+            noise_freedom: far.filter(|_| stated.noise.is_none()).map(|far| far.freedom),
             points,
             notes,
         })
@@ -160,8 +163,19 @@ fn averaged(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Standard deviation and correlation length (m) of the heights beyond the pile-up; `None` of too few.
-fn far_field(points: &[[f64; 2]], radius: f64) -> Option<(f64, f64)> {
+/// Heights beyond the pile-up.
+#[derive(Clone, Copy, Debug, Default)]
+struct FarField {
+    /// Standard deviation, m.
+    noise: f64,
+    /// Correlation length, m.
+    correlation_length: f64,
+    /// Degrees of freedom of the standard deviation.
+    freedom: f64,
+}
+
+/// That of a profile; `None` of too few points.
+fn far_field(points: &[[f64; 2]], radius: f64) -> Option<FarField> {
     let mut squares = 0.0;
     let (mut products, mut pairs, mut count, mut spacing) = (0.0, 0.0, 0, 0.0);
     for side in [-1.0, 1.0] {
@@ -183,11 +197,12 @@ fn far_field(points: &[[f64; 2]], radius: f64) -> Option<(f64, f64)> {
         return None;
     }
     // two numbers of a line were taken from the points
-    let variance = squares / (count as f64 - 2.0);
+    let freedom = count as f64 - 2.0;
     let correlation = products / pairs / (squares / count as f64);
     let chance = 2.0 / (count as f64).sqrt();
-    let length = if correlation > chance { -spacing / pairs / correlation.min(0.98).ln() } else { 0.0 };
-    Some((variance.sqrt(), length))
+    let correlation_length =
+        if correlation > chance { -spacing / pairs / correlation.min(0.98).ln() } else { 0.0 };
+    Some(FarField { noise: (squares / freedom).sqrt(), correlation_length, freedom })
 }
 
 /// The numbers of an imprint from `points` (r, z) of the surface after unloading and the contact `radius`
@@ -271,10 +286,11 @@ mod tests {
             .collect();
         let far = far_field(&points, 3e-6).unwrap();
         // 60 points of which each third is new: a quarter of the deviation, half of the length
-        assert!((far.0 / 20e-9 - 1.0).abs() < 0.35 && (0.1e-6..0.7e-6).contains(&far.1), "{far:?}");
+        assert!((far.noise / 20e-9 - 1.0).abs() < 0.35, "{far:?}");
+        assert!((0.1e-6..0.7e-6).contains(&far.correlation_length), "{far:?}");
         let white: Vec<[f64; 2]> = points.iter().map(|p| [p[0], 20e-9 * draw()]).collect();
         let far = far_field(&white, 3e-6).unwrap();
-        assert!((far.0 / 20e-9 - 1.0).abs() < 0.25 && far.1 < 0.1e-6, "{far:?}");
+        assert!((far.noise / 20e-9 - 1.0).abs() < 0.25 && far.correlation_length < 0.1e-6, "{far:?}");
     }
 
     #[test]

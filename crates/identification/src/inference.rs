@@ -7,12 +7,12 @@ use crate::identifiability::{
     Decided, NextExperiment, NullDirection, along_coordinate, decided, deviations, identified,
     next_experiment, null_direction,
 };
-use crate::levenberg_marquardt::Minimum;
-use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt, fits};
-use crate::objective::Objective;
+use crate::levenberg_marquardt::{Minimum, minimise};
+use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
+use crate::objective::{Misfit, Objective};
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
-use crate::profile_likelihood::{Interval, Profile};
+use crate::profile_likelihood::{GROWTH, Interval, Profile};
 use crate::verdict::verdict;
 use indexmap::IndexMap;
 use nalgebra::DVector;
@@ -73,7 +73,8 @@ pub fn infer(
     let others = allowed_minima(&objective, unknowns, best);
     let metals = branches(&objective, &bounds, best, &others);
     let all: Vec<Minimum> = std::iter::once(best).chain(&others).cloned().collect();
-    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
+    let lowest = lowest_without_nuisances(&objective, unknowns, best);
+    let profile = Profile { residuals: &objective, bounds: &bounds, lowest };
     let interval = |minima: &[Minimum], i: usize| {
         let along = along_coordinate(i, &deviations, &correlation);
         Interval::from_ends(&profile.ends_of_coordinate(minima, i, deviations[i], &along))
@@ -134,6 +135,19 @@ pub fn infer(
         residual,
         samples: samples.iter().map(shown).collect(),
     })
+}
+
+/// The sum of squares from which it grows to the end of an interval: while first touch and compliance may be
+/// 0, that of the fit that holds them there. Growth from the lower sum with them free would take metals out
+/// of an interval for no more than an unknown that was added.
+fn lowest_without_nuisances(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum) -> f64 {
+    let held = unknowns.without_nuisances();
+    if held.parameters == unknowns.parameters {
+        return best.chi2;
+    }
+    let bounds: Vec<[f64; 2]> = held.parameters.iter().map(|p| p.bounds).collect();
+    let without = minimise(objective, &best.point, &bounds).chi2;
+    if without <= best.chi2 + GROWTH { without.max(best.chi2) } else { best.chi2 }
 }
 
 /// Correlation of an unknown of the metal with friction from which friction decides it.
@@ -217,11 +231,9 @@ fn residual(
     best: &Minimum,
 ) -> Option<Residual> {
     let misfits = objective.misfits(&best.point)?;
-    let chi2: f64 = misfits.iter().map(|(square, _)| square).sum();
-    let mut count = 0;
+    let all = Misfit::sum(&misfits);
     let curves = experiments.iter().map(|e| {
         let differences = e.differences(unknowns, &best.point, false)?;
-        count += differences.len() as i64;
         let loading = match &e.data {
             Data::Curve(measured) => measured.loading.len(),
             Data::Features { .. } | Data::Imprint(_) | Data::ImprintNumbers(_) => differences.len(),
@@ -234,8 +246,13 @@ fn residual(
         Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise })
     });
     let curves = curves.collect::<Option<_>>()?;
-    let degrees_of_freedom = count - unknowns.parameters.len() as i64;
     // a measurement that does not fit is not hidden by others that fit well
-    let each = misfits.iter().all(|(square, count)| fits(*square, *count as i64));
-    Some(Residual { chi2, fits: each && fits(chi2, degrees_of_freedom), degrees_of_freedom, curves })
+    let each = misfits.iter().all(|misfit| misfit.fits(0));
+    let sought = unknowns.parameters.len();
+    Some(Residual {
+        chi2: all.chi2,
+        fits: each && all.fits(sought),
+        degrees_of_freedom: all.count as i64 - sought as i64,
+        curves,
+    })
 }

@@ -38,7 +38,11 @@ pub struct Minimum {
 
 /// Sum of squares; infinite where there is no metal.
 pub fn chi2(residuals: &Residuals<'_>, point: &[f64]) -> f64 {
-    residuals.residuals(point).map_or(f64::INFINITY, |r| r.iter().map(|x| x * x).sum())
+    sum_of_squares(residuals.residuals(point).as_ref())
+}
+
+fn sum_of_squares(residuals: Option<&Vec<f64>>) -> f64 {
+    residuals.map_or(f64::INFINITY, |r| r.iter().map(|x| x * x).sum())
 }
 
 /// Share of the width of the bounds over which a slope is taken: wide enough for the rounding of logarithms.
@@ -79,21 +83,20 @@ pub fn minimise(residuals: &Residuals<'_>, start: &[f64], bounds: &[[f64; 2]]) -
         x.iter().zip(bounds).map(|(x, [low, high])| x.clamp(*low, *high)).collect()
     };
     let mut point = inside(start);
-    let mut least = chi2(residuals, &point);
+    let mut here = residuals.residuals(&point);
+    let mut least = sum_of_squares(here.as_ref());
     let mut damping = 1e-3;
     for _ in 0..MOST_STEPS {
-        let (Some(here), Some(slopes)) = (residuals.residuals(&point), jacobian(residuals, &point, bounds))
-        else {
-            break;
-        };
-        let gradient = slopes.tr_mul(&DVector::from_vec(here));
+        let (Some(values), Some(slopes)) = (&here, jacobian(residuals, &point, bounds)) else { break };
+        let gradient = slopes.tr_mul(&DVector::from_row_slice(values));
         let normal = slopes.tr_mul(&slopes);
         let before = least;
         for _ in 0..12 {
             let next = inside(&stepped(&point, &normal, &gradient, damping, bounds));
-            let found = chi2(residuals, &next);
+            let there = residuals.residuals(&next);
+            let found = sum_of_squares(there.as_ref());
             if found < least {
-                (point, least) = (next, found);
+                (point, here, least) = (next, there, found);
                 damping = (0.2 * damping).max(1e-9);
                 break;
             }

@@ -77,8 +77,32 @@ pub struct CurveResidual {
 }
 
 /// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
-/// of freedom; that of none has to be small.
-pub fn fits(chi2: f64, freedom: i64) -> bool {
+/// of freedom, with [room for the noise](room_for_the_noise); that of none has to be small.
+pub fn fits(chi2: f64, freedom: i64, room: f64) -> bool {
     let free = freedom.max(0) as f64;
-    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
+    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0 + room
+}
+
+/// Growth of the largest sum of squares of `count` differences that chance allows, where the variance of
+/// their noise was itself taken from readings with so many degrees of `freedom`: the logarithm of the ratio
+/// of two variances scatters by √(2/N + 2/ν).
+pub fn room_for_the_noise(count: usize, freedom: f64) -> f64 {
+    let count = count as f64;
+    let most = |scatter: f64| count * (3.0 * scatter.sqrt()).exp();
+    most(2.0 / count + 2.0 / freedom) - most(2.0 / count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ratio of two variances with 75 and 25 degrees of freedom is above 2.4 in 0.8 % and above 3.0 in
+    /// 0.15 % (the integral of F); above 1.6 in 0.1 % where the second is known.
+    #[test]
+    fn a_sum_of_squares_may_be_off_as_much_as_its_noise() {
+        let room = room_for_the_noise(75, 25.0);
+        assert!(fits(2.4 * 75.0, 75, room) && !fits(2.4 * 75.0, 75, 0.0));
+        assert!(!fits(3.0 * 75.0, 75, room));
+        assert!(room_for_the_noise(75, 1e6) < 0.1);
+    }
 }

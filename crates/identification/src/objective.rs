@@ -1,9 +1,10 @@
 //! All measurements at once: residuals in standard deviations, by one covariance for each measurement.
 
-use super::covariance::Covariance;
+use super::covariance::{Covariance, log_determinant};
 use super::experiment::Experiment;
 use super::parameters::Unknowns;
 use crate::levenberg_marquardt::{Function, ResidualFunction, Residuals, jacobian};
+use crate::numbers::fits;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// The measurements with the parts of their covariances at one point.
@@ -18,6 +19,33 @@ pub struct Objective<'a> {
     covariances: Vec<Covariance>,
     /// Sum of ln det C of computed metals, above which its growth counts; infinite where it does not.
     least_logarithm: f64,
+}
+
+/// Misfit of a measurement, or of several.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misfit {
+    /// Sum of squares of its differences.
+    pub chi2: f64,
+    /// Their number.
+    pub count: usize,
+    /// Growth of the largest sum that chance allows because the noise was taken from few points.
+    room: f64,
+}
+
+impl Misfit {
+    /// That of several measurements together.
+    pub fn sum(all: &[Misfit]) -> Misfit {
+        Misfit {
+            chi2: all.iter().map(|m| m.chi2).sum(),
+            count: all.iter().map(|m| m.count).sum(),
+            room: all.iter().map(|m| m.room).sum(),
+        }
+    }
+
+    /// True where it is no more than chance allows with so many `unknowns`.
+    pub fn fits(&self, unknowns: usize) -> bool {
+        fits(self.chi2, self.count as i64 - unknowns as i64, self.room)
+    }
 }
 
 impl<'a> Objective<'a> {
@@ -41,18 +69,18 @@ impl<'a> Objective<'a> {
 
     /// Sum of squares of the differences at `point` alone.
     pub fn misfit(&self, point: &[f64]) -> Option<f64> {
-        Some(self.misfits(point)?.iter().map(|(square, _)| square).sum())
+        Some(self.misfits(point)?.iter().map(|misfit| misfit.chi2).sum())
     }
 
-    /// Sum of squares of the differences of each measurement at `point`, with their number.
-    pub fn misfits(&self, point: &[f64]) -> Option<Vec<(f64, usize)>> {
+    /// Misfit of each measurement at `point`.
+    pub fn misfits(&self, point: &[f64]) -> Option<Vec<Misfit>> {
         let all = self.whitened(&self.factors(point)?, point)?;
         let mut first = 0;
         let each = self.experiments.iter().map(|e| {
             let count = e.differences(self.unknowns, point, false)?.len();
-            let square = all[first..first + count].iter().map(|x| x * x).sum();
+            let chi2 = all[first..first + count].iter().map(|x| x * x).sum();
             first += count;
-            Some((square, count))
+            Some(Misfit { chi2, count, room: e.room_for_the_noise(count) })
         });
         each.collect()
     }
@@ -87,8 +115,7 @@ impl<'a> Objective<'a> {
 
 /// Sum of ln det of factored covariances.
 fn logarithm(factors: &[Cholesky<f64, Dyn>]) -> f64 {
-    let of = |factor: &Cholesky<f64, Dyn>| factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
-    2.0 * factors.iter().map(of).sum::<f64>()
+    factors.iter().map(log_determinant).sum()
 }
 
 impl ResidualFunction for Objective<'_> {

@@ -240,9 +240,11 @@ pub fn sobol_points(parameters: &[Parameter], count: usize) -> Vec<Vec<f64>> {
     (1..=count).map(|i| parameters.iter().enumerate().map(|k| coordinate(i, k)).collect()).collect()
 }
 
-/// `count` of `points`, each the one farthest from those taken before, the first one first.
-pub(crate) fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize) -> Vec<Vec<f64>> {
-    let span: Vec<f64> = (0..unknowns.parameters.len())
+/// Indices of `count` of `points`, each the one farthest from those taken before over their span, the first
+/// one first.
+pub(crate) fn far_apart(points: &[&[f64]], count: usize) -> Vec<usize> {
+    let dimensions = points.first().map_or(0, |p| p.len());
+    let span: Vec<f64> = (0..dimensions)
         .map(|i| {
             let of = points.iter().map(|p| p[i]);
             of.clone().fold(f64::NEG_INFINITY, f64::max) - of.fold(f64::INFINITY, f64::min)
@@ -253,10 +255,10 @@ pub(crate) fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize)
         a.iter().zip(b).zip(&span).map(square).sum::<f64>()
     };
     let mut nearest = vec![f64::INFINITY; points.len()];
-    let mut taken: Vec<Vec<f64>> = Vec::new();
+    let mut taken = Vec::new();
     let mut next = 0;
     while taken.len() < count.min(points.len()) {
-        taken.push(points[next].clone());
+        taken.push(next);
         for (near, point) in nearest.iter_mut().zip(points) {
             *near = near.min(distance(point, points[next]));
         }

@@ -87,7 +87,7 @@ impl Geometry {
 const UNKNOWN_ERROR: f64 = 0.05;
 
 /// Inputs of a run of finite elements.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DesignPoint {
     /// Body and tool.
     pub geometry: Geometry,
@@ -112,6 +112,13 @@ impl DesignPoint {
     fn friction_law(&self) -> Option<Law> {
         self.friction.and_then(Friction::law)
     }
+
+    /// True where one run of finite elements answers both: curve and imprint of a tool that is no sharp cone.
+    /// (The curve of a sharp cone is extrapolated from two runs, its imprint needs one.)
+    pub fn shares_the_run_of(&self, other: &DesignPoint) -> bool {
+        let sharp = matches!(self.geometry, Geometry::Sharp { .. });
+        !sharp && DesignPoint { imprint: other.imprint, ..self.clone() } == *other
+    }
 }
 
 /// The answer.
@@ -125,16 +132,32 @@ pub struct Response {
     pub reached: f64,
 }
 
-/// Answers `question` at `accuracy`. Questions of one search share `analyses` of their meshes.
-///
-/// # Errors
-/// The reason why there is no answer.
-pub fn respond(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
-    match question.geometry {
-        _ if question.imprint => imprint(question, accuracy, analyses),
-        Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy, analyses),
-        _ => body(question, accuracy, analyses),
+/// Answers `questions` at `accuracy`, which are one or [share a run](DesignPoint::shares_the_run_of).
+/// Questions of one search share `analyses` of their meshes. An error is the reason why there is no answer.
+pub fn respond(
+    questions: &[&DesignPoint],
+    accuracy: Accuracy,
+    analyses: &Analyses,
+) -> Vec<Result<Response, String>> {
+    let Some(first) = questions.first() else { return Vec::new() };
+    if let Geometry::Sharp { slope_deg } = first.geometry {
+        let of = |q: &&DesignPoint| {
+            if q.imprint {
+                imprint_of_a_cone(q, slope_deg, accuracy, analyses)
+            } else {
+                sharp(q, slope_deg, accuracy, analyses)
+            }
+        };
+        return questions.iter().map(of).collect();
     }
+    let mut surface = Vec::new();
+    let outcome = run(first, accuracy, analyses, &mut |points| surface = points.to_vec());
+    let of = |q: &&DesignPoint| match &outcome {
+        Err(reason) => Err(reason.clone()),
+        Ok(outcome) if q.imprint => imprint_of_a_body(q, outcome, &surface, accuracy),
+        Ok(outcome) => body(q, outcome),
+    };
+    questions.iter().map(of).collect()
 }
 
 fn point(question: &DesignPoint) -> Point {
@@ -191,14 +214,16 @@ fn scene(question: &DesignPoint, accuracy: Accuracy) -> Scene {
 /// Runs the scene of `question`, of which `last` hears the surface after unloading.
 fn run(
     question: &DesignPoint,
-    scene: &Scene,
+    accuracy: Accuracy,
     analyses: &Analyses,
     last: &mut dyn FnMut(&[SurfacePoint]),
 ) -> Result<Outcome, String> {
+    let output = Output { every: Some(usize::MAX), fields: None };
+    let scene = Scene { output, ..scene(question, accuracy) };
     scene.validate().map_err(|e| e.to_string())?;
     // the scene stands for the mesh; the metal is this one exactly
     let metal = point(question);
-    let run = Run { metal: Some(&metal), analyses: analyses.clone(), ..Run::new(scene) };
+    let run = Run { metal: Some(&metal), analyses: analyses.clone(), ..Run::new(&scene) };
     let outcome = run.run(&mut |event| {
         if let Event::Fields(frame) = event {
             last(&frame.fields.surface);
@@ -214,28 +239,35 @@ fn run(
     }
 }
 
-fn imprint(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
-    let respond = |numbers: Option<Vec<f64>>| {
-        let logarithms = numbers.ok_or("left no imprint")?;
-        Ok(Response { logarithms, errors: imprint::errors(accuracy), reached: 1.0 })
-    };
-    if let Geometry::Sharp { slope_deg } = question.geometry {
-        let cone =
-            Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() };
-        let left = residual_surface(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
-        return respond(imprint::numbers(left.points, left.contact_radius));
-    }
-    let output = Output { every: Some(usize::MAX), fields: None };
-    let scene = Scene { output, ..scene(question, accuracy) };
-    let mut surface = Vec::new();
-    let outcome = run(question, &scene, analyses, &mut |points| surface = points.to_vec())?;
-    let radius = outcome.rows.iter().rfind(|r| r.phase == Phase::Load).map_or(0.0, |r| r.contact_radius);
-    let points = surface.iter().map(|p| [p.r / question.depth, p.z / question.depth]).collect();
-    respond(imprint::numbers(points, radius / question.depth))
+/// The answer of the numbers of an imprint.
+fn of_an_imprint(numbers: Option<Vec<f64>>, accuracy: Accuracy) -> Result<Response, String> {
+    let logarithms = numbers.ok_or("left no imprint")?;
+    Ok(Response { logarithms, errors: imprint::errors(accuracy), reached: 1.0 })
 }
 
-fn body(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
-    let outcome = run(question, &scene(question, accuracy), analyses, &mut |_| ())?;
+fn imprint_of_a_cone(
+    question: &DesignPoint,
+    slope_deg: f64,
+    accuracy: Accuracy,
+    analyses: &Analyses,
+) -> Result<Response, String> {
+    let cone = Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() };
+    let left = residual_surface(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
+    of_an_imprint(imprint::numbers(left.points, left.contact_radius), accuracy)
+}
+
+fn imprint_of_a_body(
+    question: &DesignPoint,
+    outcome: &Outcome,
+    surface: &[SurfacePoint],
+    accuracy: Accuracy,
+) -> Result<Response, String> {
+    let radius = outcome.rows.iter().rfind(|r| r.phase == Phase::Load).map_or(0.0, |r| r.contact_radius);
+    let points = surface.iter().map(|p| [p.r / question.depth, p.z / question.depth]).collect();
+    of_an_imprint(imprint::numbers(points, radius / question.depth), accuracy)
+}
+
+fn body(question: &DesignPoint, outcome: &Outcome) -> Result<Response, String> {
     let summary = &outcome.summary;
     let stiffness = summary.unloading_stiffness.ok_or("no unloading stiffness")?;
     let share = summary.elastic_fraction.ok_or("no unloading")?;
@@ -277,4 +309,35 @@ fn recovery(rows: &[CurveRow], depth: f64) -> Vec<f64> {
     let points: Vec<[f64; 2]> =
         rows[peak..].iter().map(|r| [bent(r.force / top), 1.0 - r.depth / depth]).collect();
     FORCES.iter().map(|force| smooth(&points, bent(*force))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_material::{Hardening, HardeningLaw};
+
+    fn question(geometry: Geometry, yield_stress: f64, imprint: bool) -> DesignPoint {
+        let law = Hardening { law: HardeningLaw::Swift, yield_stress, exponent: 0.1, youngs_modulus: 120e9 };
+        let elastic = Elastic { youngs_modulus: 120e9, poissons_ratio: 0.3 };
+        DesignPoint {
+            geometry,
+            depth: 1e-6,
+            metal: Metal { elastic, hardening: law.into() },
+            modulus: 120e9,
+            tip_radius: 0.0,
+            stress_measure: StressMeasure::default(),
+            friction: None,
+            imprint,
+        }
+    }
+
+    #[test]
+    fn curve_and_imprint_of_a_ball_share_a_run_of_one_metal() {
+        let ball = |yield_stress, imprint| question(Geometry::Ball { radius: 1e-5 }, yield_stress, imprint);
+        let curve = ball(4e8, false);
+        assert!(curve.shares_the_run_of(&ball(4e8, true)));
+        assert!(!curve.shares_the_run_of(&ball(4.1e8, true)));
+        let cone = |imprint| question(Geometry::Sharp { slope_deg: 19.7 }, 4e8, imprint);
+        assert!(!cone(false).shares_the_run_of(&cone(true)));
+    }
 }

@@ -5,11 +5,10 @@ use super::branches::{FIRST_POINTS, allowed_minima, minima};
 use super::emulator::{Emulator, features};
 use super::experiment::Experiment;
 use super::identifiability::{along_coordinate, deviations};
-use super::objective::{Objective, roughly};
+use super::objective::{Misfit, Objective, roughly};
 use super::parameters::{Unknowns, far_apart, sobol_points};
 use super::response::{DesignPoint, Response, respond};
 use crate::levenberg_marquardt::{Minimum, ResidualFunction, Residuals, chi2, minimise};
-use crate::numbers::fits;
 use crate::profile_likelihood::Profile;
 use asperity_material::range;
 use asperity_simulation::scene::Accuracy;
@@ -43,6 +42,9 @@ const SETTLED_DEVIATIONS: f64 = 0.25;
 /// Relative error of a ball taken as a cone.
 const BALL_AS_CONE_ERROR: f64 = 0.35;
 
+/// Range below which a coordinate of an emulator counts as one value.
+const SAME_COORDINATE: f64 = 1e-9;
+
 /// Tells how far the search is, and whether it goes on.
 pub type Observer<'a> = dyn FnMut(f64, &str) -> bool + 'a;
 
@@ -63,6 +65,9 @@ const VALLEY_ROUNDS: usize = 2;
 /// nothing is asked again.
 const FAR_NEARNESS: f64 = 0.7;
 const TOLD_NEARNESS: f64 = 0.97;
+/// Growth of ln det C of a measurement, by what its emulator does not know of a metal, below which nothing is
+/// asked again: a twentieth of one standard deviation.
+const TOLD_GROWTH: f64 = 0.1;
 /// Other minima at which finite elements are asked as well.
 const OTHER_MINIMA: usize = 2;
 
@@ -200,10 +205,7 @@ fn everywhere(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Minimum
     // covariances hang on the point weakly: those of the best rough point serve the first look
     let rough = roughly(experiments, unknowns, BALL_AS_CONE_ERROR);
     let first = least(&*rough, &points).ok_or(SearchError::NoMetal)?;
-    minima(&objective(experiments, unknowns, &first)?, unknowns, &points)
-        .into_iter()
-        .next()
-        .ok_or(SearchError::NoMetal)
+    minima(&objective(experiments, unknowns, &first)?, &points).into_iter().next().ok_or(SearchError::NoMetal)
 }
 
 fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
@@ -233,7 +235,7 @@ fn lowest_from(
 ) -> Result<Minimum, SearchError> {
     let near = again(experiments, unknowns, point)?;
     let points = sobol_points(&unknowns.parameters, FIRST_POINTS);
-    let found = minima(&objective(experiments, unknowns, &near.point)?, unknowns, &points);
+    let found = minima(&objective(experiments, unknowns, &near.point)?, &points);
     Ok(found.into_iter().find(|m| m.chi2 < near.chi2 - MUCH_LOWER).unwrap_or(near))
 }
 
@@ -252,9 +254,8 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let Some(objective) = Objective::new(experiments, unknowns, &best.point) else { return Vec::new() };
     let objective = objective.for_intervals();
     let Some(misfits) = objective.misfits(&best.point) else { return Vec::new() };
-    let misfit: f64 = misfits.iter().map(|(square, _)| square).sum();
-    let count: usize = misfits.iter().map(|(_, count)| count).sum();
-    if !fits(misfit, count as i64 - unknowns.parameters.len() as i64) {
+    let misfit = Misfit::sum(&misfits);
+    if !misfit.fits(unknowns.parameters.len()) {
         // an interval of a model that is rejected says nothing
         return Vec::new();
     }
@@ -263,15 +264,23 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let metal = 0..unknowns.of_the_metal();
     let Some(i) = metal.max_by(|a, b| share(a).total_cmp(&share(b))) else { return Vec::new() };
     let bounds = objective.bounds();
-    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: misfit };
+    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: misfit.chi2 };
     let along = along_coordinate(i, &deviations, &correlation);
     let ends = profile.ends_of_coordinate(std::slice::from_ref(best), i, deviations[i], &along);
     let is_far = |point: &Vec<f64>| {
-        let nearness =
-            |e: &Experiment| e.design_point(unknowns, point).map_or(1.0, |q| e.emulator.nearness(&q));
-        experiments.iter().any(|e| !e.shifts_the_atlas() && nearness(e) < FAR_NEARNESS)
+        let of = |e: &Experiment| !e.shifts_the_atlas() && is_untold(e, unknowns, point, FAR_NEARNESS);
+        experiments.iter().any(of)
     };
     ends.into_iter().map(|end| end.point).filter(is_far).collect()
+}
+
+/// True where finite elements would tell more of the metal at `point`: no computed metal is as near as
+/// `nearness`, and what the emulator does not know widens the covariance.
+fn is_untold(e: &Experiment, unknowns: &Unknowns, point: &[f64], nearness: f64) -> bool {
+    let Some(question) = e.design_point(unknowns, point) else { return false };
+    let near = e.emulator.nearness(&question);
+    let widens = || e.growth(unknowns, point).is_none_or(|growth| growth > TOLD_GROWTH);
+    near == 0.0 || near < nearness && widens()
 }
 
 /// Asks the finite elements of every experiment at `points`, and the emulators learn the answers; no answer
@@ -286,26 +295,23 @@ fn run_at(
 ) -> Result<(), SearchError> {
     let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
     // what computed metals beside a point tell is not asked again, but for a finer level
-    let open = |e: &Experiment, level: Accuracy, question: &DesignPoint| {
+    let open = |e: &Experiment, level: Accuracy, point: &[f64]| {
         if e.shifts_the_atlas() {
             // one shift belongs to one metal, the best
             return needed;
         }
         let finer = !e.is_sharp() && level != Accuracy::Draft;
-        finer || e.emulator.nearness(question) < TOLD_NEARNESS
+        finer || is_untold(e, unknowns, point, TOLD_NEARNESS)
     };
-    let questions: Vec<(usize, DesignPoint)> = experiments
-        .iter()
-        .enumerate()
-        .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.design_point(unknowns, p)?))))
-        .filter(|(i, question)| open(&experiments[*i], levels[*i], question))
-        .collect();
+    let at = |(i, e): (usize, &Experiment), p: &Vec<f64>| {
+        open(e, levels[i], p).then(|| Some((i, e.design_point(unknowns, p)?))).flatten()
+    };
+    let questions: Vec<(usize, DesignPoint)> =
+        experiments.iter().enumerate().flat_map(|of| points.iter().filter_map(move |p| at(of, p))).collect();
     let asked: Vec<bool> = (0..experiments.len()).map(|i| questions.iter().any(|(of, _)| *of == i)).collect();
-    let answers: Vec<Result<Response, String>> =
-        questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i], analyses)).collect();
+    let answers = answered(&questions, &levels, analyses, found);
     let mut learned = vec![false; experiments.len()];
     for ((i, question), answer) in questions.iter().zip(answers) {
-        found.runs += 1;
         let experiment = &mut experiments[*i];
         match answer {
             Ok(response) => {
@@ -343,6 +349,36 @@ fn run_at(
     }
 }
 
+/// The answers of finite elements to `questions`, each of an experiment whose level `levels` hold; those that
+/// share a run are asked by one.
+fn answered(
+    questions: &[(usize, DesignPoint)],
+    levels: &[Accuracy],
+    analyses: &Analyses,
+    found: &mut Found,
+) -> Vec<Result<Response, String>> {
+    let mut runs: Vec<Vec<usize>> = Vec::new();
+    for (k, (of, question)) in questions.iter().enumerate() {
+        let shared = |run: &&mut Vec<usize>| {
+            let (other, asked) = &questions[run[0]];
+            levels[*of] == levels[*other] && question.shares_the_run_of(asked)
+        };
+        match runs.iter_mut().find(shared) {
+            Some(run) => run.push(k),
+            None => runs.push(vec![k]),
+        }
+    }
+    found.runs += runs.len();
+    let of_a_run = |run: &Vec<usize>| {
+        let together: Vec<&DesignPoint> = run.iter().map(|k| &questions[*k].1).collect();
+        respond(&together, levels[questions[run[0]].0], analyses)
+    };
+    let answers: Vec<Vec<Result<Response, String>>> = runs.par_iter().with_max_len(1).map(of_a_run).collect();
+    let mut placed: Vec<_> = runs.into_iter().flatten().zip(answers.into_iter().flatten()).collect();
+    placed.sort_by_key(|(k, _)| *k);
+    placed.into_iter().map(|(_, answer)| answer).collect()
+}
+
 /// Gives every tool that is no sharp cone runs at metals that may fit at all.
 fn design(
     experiments: &mut [Experiment],
@@ -355,34 +391,49 @@ fn design(
     if bodies.is_empty() {
         return Ok(());
     }
-    let points = plausible(experiments, unknowns)?;
-    for (k, i) in bodies.iter().enumerate() {
-        let share = 0.5 * k as f64 / bodies.len() as f64;
-        go_on(
-            observer,
-            share,
-            &format!("{}: runs of finite elements over plausible metals", experiments[*i].name),
-        )?;
-        let questions: Vec<DesignPoint> =
-            points.iter().filter_map(|p| experiments[*i].design_point(unknowns, p)).collect();
-        let answers: Vec<Result<Response, String>> =
-            questions.par_iter().with_max_len(1).map(|q| respond(q, Accuracy::Draft, analyses)).collect();
-        found.runs += answers.len();
+    let points = plausible(experiments, &bodies, unknowns)?;
+    let levels = vec![Accuracy::Draft; experiments.len()];
+    // curve and imprint of one test are asked together
+    let tests: Vec<&[usize]> =
+        bodies.chunk_by(|i, j| experiments[*i].curve == experiments[*j].curve).collect();
+    for (k, test) in tests.iter().enumerate() {
+        let share = 0.5 * k as f64 / tests.len() as f64;
+        let name = experiments[test[0]].name.clone();
+        go_on(observer, share, &format!("{name}: runs of finite elements over plausible metals"))?;
+        let of = |i: usize| points.iter().filter_map(move |p| Some((i, p)));
+        let questions: Vec<(usize, DesignPoint)> = test
+            .iter()
+            .flat_map(|&i| of(i))
+            .filter_map(|(i, p)| Some((i, experiments[i].design_point(unknowns, p)?)))
+            .collect();
+        let answers = answered(&questions, &levels, analyses, found);
         let reason = answers.iter().find_map(|a| a.as_ref().err().cloned()).unwrap_or_default();
-        let runs: Vec<(Vec<f64>, Response)> =
-            questions.iter().zip(answers).filter_map(|(q, a)| Some((features(q), a.ok()?))).collect();
-        experiments[*i].emulator = Emulator::fit(&runs).ok_or_else(|| {
-            SearchError::NoAnswer(format!(
-                "{}: too few runs of finite elements came to an end: {reason}",
-                experiments[*i].name
-            ))
-        })?;
+        for &i in *test {
+            let own = questions.iter().zip(&answers).filter(|((of, _), _)| *of == i);
+            let runs: Vec<(Vec<f64>, Response)> =
+                own.filter_map(|((_, q), a)| Some((features(q), a.as_ref().ok()?.clone()))).collect();
+            experiments[i].emulator = Emulator::fit(&runs).ok_or_else(|| {
+                SearchError::NoAnswer(format!(
+                    "{}: too few runs of finite elements came to an end: {reason}",
+                    experiments[i].name
+                ))
+            })?;
+        }
     }
     Ok(())
 }
 
-/// Points far from each other among those that the rough look does not rule out.
-fn plausible(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Vec<Vec<f64>>, SearchError> {
+/// Runs over plausible metals by the number of coordinates of the emulator in which these differ: enough for
+/// a polynomial of the third degree in two of them, for one of the second in more.
+const DESIGN_RUNS: [usize; 5] = [10, 12, 20, 32, 48];
+
+/// Points far from each other among those that the rough look does not rule out: far in what the answers of
+/// `bodies` depend on, and so many as that has coordinates.
+fn plausible(
+    experiments: &[Experiment],
+    bodies: &[usize],
+    unknowns: &Unknowns,
+) -> Result<Vec<Vec<f64>>, SearchError> {
     let candidates = sobol_points(&unknowns.parameters, 8 * FIRST_POINTS);
     let rough = roughly(experiments, unknowns, BALL_AS_CONE_ERROR);
     let ranked: Vec<(f64, &Vec<f64>)> = candidates.par_iter().map(|p| (chi2(&*rough, p), p)).collect();
@@ -392,10 +443,25 @@ fn plausible(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Vec<Vec<
     }
     let mut ranked: Vec<_> = ranked.into_iter().filter(|r| r.0.is_finite()).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let varied = unknowns.parameters.len();
-    let wanted = [10, 12, 20, 32, 48][varied.min(4)];
+    let places_of = |p: &Vec<f64>| -> Option<Vec<Vec<f64>>> {
+        bodies.iter().map(|&i| Some(features(&experiments[i].design_point(unknowns, p)?))).collect()
+    };
+    let placed: Vec<Option<Vec<Vec<f64>>>> = ranked.iter().map(|r| places_of(r.1)).collect();
+    let coordinates = |body: usize| {
+        let of = |k: usize| placed.iter().flatten().map(move |places| places[body][k]);
+        let varies = |k: usize| of(k).fold(f64::NEG_INFINITY, f64::max) - of(k).fold(f64::INFINITY, f64::min);
+        let count = placed.iter().flatten().next().map_or(0, |places| places[body].len());
+        (0..count).filter(|&k| varies(k) > SAME_COORDINATE).count()
+    };
+    let varied = (0..bodies.len()).map(coordinates).max().unwrap_or(0);
+    let wanted = DESIGN_RUNS[varied.min(DESIGN_RUNS.len() - 1)];
     let allowed =
         ranked.iter().take_while(|r| r.0 <= lowest + 12.0).count().max(4 * wanted).min(ranked.len());
-    let open: Vec<&Vec<f64>> = ranked[..allowed].iter().map(|r| r.1).collect();
-    Ok(far_apart(&open, unknowns, wanted))
+    let open: Vec<(&Vec<f64>, Vec<f64>)> = ranked[..allowed]
+        .iter()
+        .zip(&placed)
+        .filter_map(|(r, places)| Some((r.1, places.as_ref()?.concat())))
+        .collect();
+    let places: Vec<&[f64]> = open.iter().map(|(_, place)| place.as_slice()).collect();
+    Ok(far_apart(&places, wanted).into_iter().map(|k| open[k].0.clone()).collect())
 }

@@ -127,6 +127,9 @@ const PLATEAU: f64 = 12.0;
 /// what both contacts and laws share, of what differs between contacts, between laws.
 const BLOCKS: [([usize; 4], f64); 3] = [([9, 5, 4, 3], 1.3), ([6, 4, 3, 2], 1.3), ([5, 3, 2, 2], 1.3)];
 
+/// The largest degree among them.
+const MOST_DEGREE: usize = 9;
+
 /// Degree of the formula of the errors in all coordinates together.
 const DEGREE_OF_ERRORS: usize = 2;
 
@@ -229,14 +232,30 @@ fn least_x() -> f64 {
     RATIOS[0] * SLOPES[0].to_radians().tan()
 }
 
-/// Chebyshev's polynomials of 2x - 1 up to `degree`, 1 at least.
-fn chebyshev(x: f64, degree: usize) -> Vec<f64> {
+/// Chebyshev's polynomials of 2x - 1 up to `degree`, 1 at least and [`MOST_DEGREE`] at most.
+fn chebyshev(x: f64, degree: usize) -> [f64; MOST_DEGREE + 1] {
     let x = 2.0 * x - 1.0;
-    let mut series = vec![1.0, x];
+    let mut series = [0.0; MOST_DEGREE + 1];
+    series[..2].copy_from_slice(&[1.0, x]);
     for k in 2..=degree {
-        series.push(2.0 * x * series[k - 1] - series[k - 2]);
+        series[k] = 2.0 * x * series[k - 1] - series[k - 2];
     }
     series
+}
+
+/// Degrees of the products of each of [`BLOCKS`], in the order of their coefficients.
+fn products() -> &'static [Vec<[usize; 4]>; 3] {
+    static PRODUCTS: OnceLock<[Vec<[usize; 4]>; 3]> = OnceLock::new();
+    PRODUCTS.get_or_init(|| {
+        BLOCKS.map(|(degrees, most)| {
+            let share = |powers: &[usize; 4]| {
+                powers.iter().zip(degrees).map(|(power, degree)| *power as f64 / degree as f64).sum::<f64>()
+            };
+            let [a, b, c, d] = degrees.map(|degree| degree + 1);
+            let all = (0..a * b * c * d).map(|k| [k / (b * c * d), k / (c * d) % b, k / d % c, k % d]);
+            all.filter(|powers| share(powers) <= most + 1e-9).collect()
+        })
+    })
 }
 
 impl Place {
@@ -246,20 +265,13 @@ impl Place {
         let factors = [1.0, self.contact * self.steepness, self.law * self.hardening];
         let coordinates = [self.plasticity, self.steepness, self.hardening, self.poissons_ratio];
         let mut terms = Vec::new();
-        for ((degrees, most), factor) in BLOCKS.iter().zip(factors) {
-            let series: [Vec<f64>; 4] = std::array::from_fn(|i| chebyshev(coordinates[i], degrees[i]));
-            let share = |axis: usize, power: usize| power as f64 / degrees[axis] as f64;
-            for (i, a) in series[0].iter().enumerate() {
-                for (j, b) in series[1].iter().enumerate() {
-                    for (k, c) in series[2].iter().enumerate() {
-                        for (l, d) in series[3].iter().enumerate() {
-                            if share(0, i) + share(1, j) + share(2, k) + share(3, l) <= most + 1e-9 {
-                                terms.push(factor * a * b * c * d);
-                            }
-                        }
-                    }
-                }
-            }
+        for (((degrees, _), products), factor) in BLOCKS.iter().zip(products()).zip(factors) {
+            let series: [[f64; MOST_DEGREE + 1]; 4] =
+                std::array::from_fn(|i| chebyshev(coordinates[i], degrees[i]));
+            let product = |[i, j, k, l]: &[usize; 4]| {
+                factor * series[0][*i] * series[1][*j] * series[2][*k] * series[3][*l]
+            };
+            terms.extend(products.iter().map(product));
         }
         terms
     }
@@ -279,8 +291,8 @@ impl Place {
 /// The formula with its coefficients.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
-    /// One row for each of [`OUTPUTS`].
-    values: Vec<Vec<f64>>,
+    /// Those of [`OUTPUTS`], one row for each of [`Place::terms`]: all outputs are summed side by side.
+    values: Vec<[f64; OUTPUTS]>,
     /// One row for each of [`ERRORS`].
     errors: Vec<Vec<f64>>,
     /// Least errors of the computed cones, added in squares.
@@ -306,8 +318,8 @@ impl Atlas {
             rows.len() == count
                 && rows.iter().all(|row| row.len() == terms && row.iter().all(|x| x.is_finite()))
         };
-        (whole(&values, OUTPUTS, terms) && whole(&errors, ERRORS, terms_of_errors)).then_some(Atlas {
-            values,
+        (whole(&values, OUTPUTS, terms) && whole(&errors, ERRORS, terms_of_errors)).then(|| Atlas {
+            values: (0..terms).map(|term| std::array::from_fn(|output| values[output][term])).collect(),
             errors,
             least,
         })
@@ -319,7 +331,8 @@ impl Atlas {
             let words: Vec<String> = row.iter().map(|x| short(*x, digits)).collect();
             words.join(" ") + "\n"
         };
-        let values: String = self.values.iter().map(|values| row(values, 5)).collect();
+        let of_output = |output: usize| self.values.iter().map(|values| values[output]).collect::<Vec<_>>();
+        let values: String = (0..OUTPUTS).map(|output| row(&of_output(output), 5)).collect();
         let errors: String = self.errors.iter().map(|errors| row(errors, 3)).collect();
         values + &errors + &row(&self.least, 5)
     }
@@ -345,8 +358,10 @@ impl Atlas {
         let edge = cone.at_the_edge();
         let place = edge.place();
         let sum = |rows: &[f64], terms: &[f64]| rows.iter().zip(terms).map(|(c, t)| c * t).sum::<f64>();
-        let terms = place.terms();
-        let mut logarithms: [f64; OUTPUTS] = std::array::from_fn(|i| sum(&self.values[i], &terms));
+        let mut logarithms = [0.0; OUTPUTS];
+        for (values, term) in self.values.iter().zip(place.terms()) {
+            logarithms.iter_mut().zip(values).for_each(|(sum, value)| *sum += value * term);
+        }
         // toward a plane every cone is elastic: below the least X what differs from Sneddon's solution falls
         // with X
         let developed = (edge.groups()[0] / least_x()).min(1.0);

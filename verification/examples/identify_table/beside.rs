@@ -4,12 +4,12 @@
 use crate::Book;
 use crate::cases::{DEPTH, Published};
 use asperity_calibration::indentation::solve;
-use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
-use asperity_simulation::scene::Accuracy;
+use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
+use asperity_simulation::scene::{Accuracy, Friction};
 use asperity_simulation::setup::cone::Cone;
 use asperity_solver::body::analysis::Analyses;
-use asperity_solver::point::material::Metal;
 use asperity_verification::report::Report;
+use asperity_verification::twins::indenter;
 use rayon::prelude::*;
 use serde_json::json;
 
@@ -31,8 +31,8 @@ impl Ratios {
     }
 }
 
-/// K/E, S/(E h) and the returned share of the work under a cone of this slope on a metal of law `swift`; none
-/// where the path stopped.
+/// K/E, S/(E h) and the returned share of the work under a smooth cone of this slope on a metal of law
+/// `swift`; none where the path stopped.
 pub fn indented(
     book: &Book,
     ratio: f64,
@@ -40,33 +40,39 @@ pub fn indented(
     slope_deg: f64,
     accuracy: Accuracy,
 ) -> Option<[f64; 3]> {
+    by_finite_elements(book, [ratio, exponent, slope_deg], accuracy, 0.0)
+}
+
+/// The same with a coefficient of `friction`.
+fn by_finite_elements(
+    book: &Book,
+    [ratio, exponent, slope_deg]: [f64; 3],
+    accuracy: Accuracy,
+    friction: f64,
+) -> Option<[f64; 3]> {
     let level = if accuracy == Accuracy::Standard { "" } else { " finer" };
-    let found = book.recall(&format!("cone {slope_deg} {ratio} {exponent}{level}"), || {
-        let law =
-            Hardening { law: HardeningLaw::Swift, yield_stress: 1.0 / ratio, exponent, youngs_modulus: 1.0 };
-        let metal = Metal {
-            elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
-            hardening: Some(law.into()),
-            kinematic_share: 0.0,
-            stress_measure: StressMeasure::Cauchy,
-        };
-        let found =
-            solve(&Cone { slope_deg, indents: true, metal, friction: None }, accuracy, &Analyses::default())
-                .ok()?
-                .0;
+    let rough = if friction == 0.0 { String::new() } else { format!(" friction {friction}") };
+    let found = book.recall(&format!("cone {slope_deg} {ratio} {exponent}{level}{rough}"), || {
+        let cone = indenter(slope_deg, ratio, exponent);
+        let cone = Cone { friction: Friction::Coefficient(friction).law(), ..cone };
+        let found = solve(&cone, accuracy, &Analyses::default()).ok()?.0;
         Some(json!([found.k_over_e, found.stiffness, found.elastic_share]))
     })?;
     Some([found[0].as_f64()?, found[1].as_f64()?, found[2].as_f64()?])
 }
 
-fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Option<[f64; 3]> {
-    indented(book, p.youngs_modulus / p.yield_stress, p.exponent, slope_deg, accuracy)
+/// K/E that the atlas of cones expects: what a fit goes by before finite elements are asked.
+fn by_the_atlas(ratio: f64, exponent: f64, slope_deg: f64) -> Option<f64> {
+    let Cone { metal, .. } = indenter(slope_deg, ratio, exponent);
+    let cone = SharpCone::new(slope_deg, &metal.elastic, metal.hardening?, Contact::Indenting);
+    Some(Atlas::committed()?.nearest(&cone).k_over_e.value)
 }
 
 /// The ratios of all metals.
 pub fn ratios(book: &Book, metals: &[Published]) -> Vec<Ratios> {
     let one = |p: &Published| {
-        let under = [30.0, 40.0].map(|slope| cone(book, p, slope, Accuracy::Standard));
+        let ratio = p.youngs_modulus / p.yield_stress;
+        let under = [30.0, 40.0].map(|slope| indented(book, ratio, p.exponent, slope, Accuracy::Standard));
         let curvature = |k: usize| Some(under[k]?[0] * p.youngs_modulus / p.curvatures[k]?);
         Ratios {
             exponent: p.exponent,
@@ -111,25 +117,40 @@ pub fn section(report: &mut Report, ratios: &[Ratios]) {
     }
 }
 
-/// Metals whose curvature under 50° is computed at `reference` too: n, E/σ_y.
+/// Metals whose curvature is computed in several ways: n, E/σ_y.
 const FINER: [[f64; 2]; 5] =
     [[0.0, 100.0], [0.0, 1000.0 / 3.0], [0.1, 100.0], [0.1, 1000.0 / 3.0], [0.5, 1000.0 / 3.0]];
+/// A coefficient of friction of a polished tool.
+const FRICTION: f64 = 0.1;
 
-/// Writes whether the differences under 50° are those of the level.
+/// Writes whether the differences are those of the emulator, of the level, or of friction.
 pub fn finer(report: &mut Report, book: &Book, metals: &[Published]) {
-    report.section("Loading curvature under 50° at two levels");
-    report.table("| n | E/σ_y | standard, % above the published | reference, % above |");
-    for [exponent, ratio] in FINER {
-        let like = |p: &&Published| {
-            p.exponent == exponent && (p.youngs_modulus / p.yield_stress / ratio - 1.0).abs() < 1e-3
-        };
-        let Some(p) = metals.iter().find(like) else { continue };
-        let above = |accuracy| {
-            let k = cone(book, p, 40.0, accuracy)?[0] * p.youngs_modulus / p.curvatures[1]?;
-            Some(format!("{:+.1}", 100.0 * (k - 1.0)))
-        };
-        let [standard, reference] = [Accuracy::Standard, Accuracy::Reference]
-            .map(|accuracy| above(accuracy).unwrap_or_else(|| "stopped".into()));
-        report.line(&format!("| {exponent} | {ratio:.0} | {standard} | {reference} |"));
+    report.section("Loading curvature over the published one: emulator, levels, friction");
+    report.table(&format!(
+        "| half apex angle, ° | n | E/σ_y | the atlas, % | standard, % | reference, % | standard with friction {FRICTION}, % |"
+    ));
+    for (k, slope_deg) in [30.0, 40.0].into_iter().enumerate() {
+        for [exponent, ratio] in FINER {
+            let like = |p: &&Published| {
+                p.exponent == exponent && (p.youngs_modulus / p.yield_stress / ratio - 1.0).abs() < 1e-3
+            };
+            let Some(p) = metals.iter().find(like) else { continue };
+            let above = |k_over_e: Option<f64>| {
+                let over = k_over_e.zip(p.curvatures[k]).map(|(ours, c)| ours * p.youngs_modulus / c);
+                over.map_or_else(|| "stopped".into(), |over| format!("{:+.1}", 100.0 * (over - 1.0)))
+            };
+            let computed = |accuracy, friction| {
+                let place = [p.youngs_modulus / p.yield_stress, exponent, slope_deg];
+                above(by_finite_elements(book, place, accuracy, friction).map(|found| found[0]))
+            };
+            report.line(&format!(
+                "| {} | {exponent} | {ratio:.0} | {} | {} | {} | {} |",
+                90.0 - slope_deg,
+                above(by_the_atlas(p.youngs_modulus / p.yield_stress, exponent, slope_deg)),
+                computed(Accuracy::Standard, 0.0),
+                computed(Accuracy::Reference, 0.0),
+                computed(Accuracy::Standard, FRICTION)
+            ));
+        }
     }
 }

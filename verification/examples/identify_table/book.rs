@@ -51,7 +51,7 @@ impl Book {
     /// The journal at `path`, begun anew where another version of the program wrote it; without one nothing
     /// is kept.
     pub fn open(path: Option<&Path>) -> Book {
-        let identity = fingerprint(concat!("identify_table 3, asperity ", env!("CARGO_PKG_VERSION")));
+        let identity = fingerprint(concat!("identify_table 4, asperity ", env!("CARGO_PKG_VERSION")));
         let opened = path.map(|path| Journal::open(path, identity).expect("can be written"));
         let (journal, lines) = opened.map_or((None, Vec::new()), |o| (Some(o.journal), o.texts));
         let known = lines.iter().filter_map(|l| serde_json::from_str::<(u64, Value)>(l).ok()).collect();
@@ -92,13 +92,18 @@ impl Book {
     }
 }
 
-#[allow(clippy::print_stderr)]
 fn answer(case: &Case) -> Option<Value> {
-    let fit = Fit::from_toml(&case.fit, &case.folder).and_then(|fit| identify(fit, &mut |_, _| true));
+    identified(&case.name, &case.fit, &case.folder)
+}
+
+/// The `fit.json` of the fit file `fit` in `folder`; none where there is no answer, which is said of `name`.
+#[allow(clippy::print_stderr)]
+pub fn identified(name: &str, fit: &str, folder: &Path) -> Option<Value> {
+    let fit = Fit::from_toml(fit, folder).and_then(|fit| identify(fit, &mut |_, _| true));
     match fit.and_then(|found| found.to_json()) {
         Ok(text) => serde_json::from_str(&text).ok(),
         Err(error) => {
-            eprintln!("{}: {error}", case.name);
+            eprintln!("{name}: {error}");
             None
         }
     }

@@ -4,6 +4,7 @@ use asperity::tables::{Accuracy, HardeningChoice, Loading, Material, Scene as Ta
 use asperity::units::MICROMETRE;
 use asperity::{Length, Scene, Stress, crush};
 use asperity_calibration::fit::SplitMix;
+use asperity_verification::twins::Normal;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -204,18 +205,6 @@ pub fn twins(count: usize) -> Vec<Case> {
         })
     };
     metals.into_par_iter().enumerate().with_max_len(1).filter_map(one).collect()
-}
-
-/// A draw of normal numbers.
-pub struct Normal(pub SplitMix);
-
-impl Normal {
-    /// The next one.
-    pub fn draw(&mut self) -> f64 {
-        let mut uniform = || ((self.0.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-        // Box and Muller
-        (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
-    }
 }
 
 /// A curve with noise on its forces, as a table.

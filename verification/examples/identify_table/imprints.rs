@@ -1,15 +1,13 @@
 //! Twins of one cone with its imprint, at a finer level than that of the fit.
 
-use crate::cases::{Case, Normal, material};
+use crate::cases::{Case, material};
 use asperity::tables::Accuracy;
 use asperity_calibration::fit::SplitMix;
-use asperity_calibration::indentation::{FORCES, residual_surface, solve};
+use asperity_calibration::indentation::{residual_surface, solve};
 use asperity_identification::interpolation::linear_between;
-use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_numerics::sobol::Sobol;
-use asperity_simulation::setup::cone::Cone;
 use asperity_solver::body::analysis::Analyses;
-use asperity_solver::point::material::Metal;
+use asperity_verification::twins::{Cone, Normal, indenter};
 use rayon::prelude::*;
 use std::fmt::Write;
 use std::path::Path;
@@ -61,37 +59,19 @@ pub fn imprints(count: usize, length: f64) -> Vec<Case> {
 
 /// Writes curve and imprint of a metal (GPa, MPa, n) by finite elements at `reference`.
 fn write([e, s, n]: [f64; 3], seed: u64, length: f64, [curve, imprint]: [&Path; 2]) -> Option<()> {
-    let law =
-        Hardening { law: HardeningLaw::Swift, yield_stress: 1e-3 * s / e, exponent: n, youngs_modulus: 1.0 };
-    let metal = Metal {
-        elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
-        hardening: Some(law.into()),
-        kinematic_share: 0.0,
-        stress_measure: StressMeasure::default(),
-    };
-    let cone = Cone { slope_deg: SLOPE_DEG, indents: true, metal, friction: None };
+    let cone = indenter(SLOPE_DEG, 1e3 * e / s, n);
     let analyses = Analyses::default();
     let (found, _) = solve(&cone, Accuracy::Reference, &analyses).ok()?;
     let left = residual_surface(&cone, Accuracy::Reference, &analyses).ok()?;
     let mut noise = Normal(SplitMix(seed + 77));
-    let mut text = "depth_um,force_mN\n".to_string();
-    // E in GPa over lengths in µm: mN
-    let force = |depth: f64| e * found.k_over_e * depth * depth;
-    let mut row = |depth: f64, force: f64| {
-        let _ = writeln!(text, "{depth:.6},{:.8}", force * (1.0 + NOISE[0] * noise.draw()));
+    let computed = Cone {
+        half_apex_deg: 90.0 - SLOPE_DEG,
+        e_over_sy: 1e3 * e / s,
+        exponent: n,
+        k_over_e: found.k_over_e,
+        recovery: found.recovery,
     };
-    for k in 1..=200 {
-        let depth = DEPTH * f64::from(k) / 200.0;
-        row(depth, force(depth));
-    }
-    let points: Vec<[f64; 2]> = std::iter::once([1.0, 0.0])
-        .chain(FORCES.iter().copied().zip(found.recovery).map(|(f, r)| [f, r]))
-        .collect();
-    for k in 1..100 {
-        let share = 1.0 - f64::from(k) / 100.0;
-        row(DEPTH * (1.0 - recovered(&points, share)), share * force(DEPTH));
-    }
-    std::fs::write(curve, text).ok()?;
+    std::fs::write(curve, computed.curve(e, DEPTH, 200, NOISE[0], &mut noise)).ok()?;
     let mut surface = left.points.clone();
     surface.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let far = surface.last()?[1];
@@ -109,10 +89,4 @@ fn write([e, s, n]: [f64; 3], seed: u64, length: f64, [curve, imprint]: [&Path; 
         rough = alike * rough + (1.0 - alike * alike).sqrt() * noise.draw();
     }
     std::fs::write(imprint, text).ok()
-}
-
-/// The recovery at a share of the peak force, straight in F^(2/3) between `points` of falling force.
-fn recovered(points: &[[f64; 2]], share: f64) -> f64 {
-    let bent: Vec<[f64; 2]> = points.iter().map(|p| [-p[0].powf(2.0 / 3.0), p[1]]).collect();
-    linear_between(&bent, -share.powf(2.0 / 3.0))
 }

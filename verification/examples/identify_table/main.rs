@@ -3,11 +3,13 @@
 //! metals that one cone cannot tell apart.
 //!
 //! `cargo run --release -p asperity-verification --example identify_table -- FOLDER [--twins N]
-//! [--imprints N] [--every N] [--leave-out sought,twins] [--pyramid] [--journal FILE] [--out FILE]`; without
-//! FOLDER the two metals alone. FOLDER holds FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and
-//! Al6061.csv. What the journal holds is not computed again.
+//! [--imprints N] [--properties N] [--every N] [--leave-out sought,twins] [--pyramid] [--journal FILE]
+//! [--out FILE]`; without FOLDER the two metals alone. FOLDER holds FEM_60deg.csv, FEM_50deg.csv (rows 1 to
+//! 76 are used) and Al6061.csv. What the journal holds is not computed again.
 //! `--pyramid` writes of pyramids as cones alone; it needs Berkovich.csv, and where they are there it takes
 //! FEM_70deg.csv, Al6061.csv and Al7075.csv.
+//! `--cones N` writes the cones of `results/reference-cones.md`, of which the twins of `--properties` are
+//! made.
 //! `--every N` takes every N-th published metal but in the fit of two cones with E known.
 
 // on committed cases
@@ -18,6 +20,7 @@ mod book;
 mod cases;
 mod imprints;
 mod pair;
+mod properties;
 mod pyramid;
 mod score;
 
@@ -51,13 +54,19 @@ fn narrow(rows: &[Row], share: f64) -> Vec<Row> {
 }
 
 fn main() {
-    let (mut report, words) =
-        Report::of_example("identify_table", "finite elements at standard, extrapolated");
+    let level = if std::env::args().any(|word| word == "--cones") { "reference" } else { "standard" };
+    let level = format!("finite elements at {level}, extrapolated");
+    let (mut report, words) = Report::of_example("identify_table", &level);
     let after = |name: &str| words.iter().position(|w| w == name).and_then(|i| words.get(i + 1));
     let left_out = |part: &str| after("--leave-out").is_some_and(|list| list.split(',').any(|w| w == part));
     let every: usize = after("--every").map_or(1, |n| n.parse().expect("a number"));
     let thinned =
         |cases: Vec<Case>| cases.into_iter().skip(every / 2).step_by(every.max(1)).collect::<Vec<_>>();
+    if let Some(count) = after("--cones") {
+        properties::cones(&mut report, count.parse().expect("a number"));
+        report.finish().expect("can be written");
+        return;
+    }
     let Some(folder) = words.first().map(Path::new) else {
         // what needs no data of others
         pair::section(&mut report);
@@ -94,6 +103,8 @@ fn main() {
         line(&mut report, &work, "σ_y", &yields(&found), count, &bound);
         line(&mut report, &work, "n (differences, not shares)", &differences_of_n(&found), count, &COVERS);
     }
+    let count: usize = after("--properties").map_or(200, |n| n.parse().expect("a number"));
+    properties::section(&mut report, &book, count);
     score::times(&mut report, times);
     beside::section(&mut report, &ratios);
     beside::finer(&mut report, &book, &metals);

@@ -1,0 +1,66 @@
+//! What holds of `identify` whatever is sought beside the metal: an unknown more tells nothing, a better
+//! curve does not rule out the metal that it is of.
+//!
+//! Source: logic alone. Twins are curves of cones by finite elements at `reference`, with noise, of which
+//! `results/reference-cones.md` holds the numbers. Of the many of `results/identify.md` a few are taken here.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use asperity::{Fit, identify};
+use asperity_verification::twins::{Cone, Properties, Twin, properties};
+use rayon::prelude::*;
+use serde_json::Value;
+use std::path::Path;
+
+fn answer(folder: &Path, fit: &str) -> Option<Value> {
+    let fit = Fit::from_toml(fit, folder).unwrap();
+    serde_json::from_str(&identify(fit, &mut |_, _| true).ok()?.to_json().ok()?).ok()
+}
+
+fn properties_of(twins: &[Twin]) -> Vec<Properties> {
+    let place = tempfile::tempdir().unwrap();
+    let one = |(i, twin): (usize, &Twin)| {
+        let file = format!("twin-{i}.csv");
+        std::fs::write(place.path().join(&file), twin.curve()).unwrap();
+        properties(twin, &file, &|fit| answer(place.path(), fit)).unwrap()
+    };
+    twins.par_iter().enumerate().with_max_len(1).map(one).collect()
+}
+
+/// First touch and compliance of the machine are 0 and not known to be. Two percent of a width is what the
+/// steps of a profile leave of its end; 0.1 of a sum of squares is a thirtieth of what ends an interval.
+#[test]
+fn an_added_unknown_narrows_no_interval_and_fits_no_worse() {
+    let cones = Cone::computed();
+    let twins: Vec<Twin> = (1..=2).map(|i| Twin::new(&cones, i).unwrap()).collect();
+    for (found, twin) in properties_of(&twins).iter().zip(&twins) {
+        assert!(found.narrowed <= 0.02 && found.raised <= 0.1, "{twin:?}: {found:?}");
+        assert!(found.fits, "{twin:?}: {found:?}");
+        assert_eq!(found.covers, [true; 3], "{twin:?}: {found:?}");
+    }
+}
+
+/// From 20 readings with noise of 2 % to 20,000 with 0.02 %, noise stated and not: the metal fits and its
+/// interval holds it.
+#[test]
+fn a_better_curve_does_not_reject_its_metal() {
+    let cones = Cone::computed();
+    let place = tempfile::tempdir().unwrap();
+    let ladder = [(20, 0.02), (200, 5e-3), (2000, 1e-3), (20_000, 2e-4)];
+    let twin = Twin::new(&cones, 0).unwrap();
+    let cases: Vec<(Twin, bool)> = ladder
+        .iter()
+        .map(|(points, noise)| Twin { points: *points, noise: *noise, ..twin.clone() })
+        .flat_map(|twin| [true, false].map(|stated| (twin.clone(), stated)))
+        .collect();
+    cases.par_iter().enumerate().with_max_len(1).for_each(|(k, (twin, stated))| {
+        let file = format!("curve-{k}.csv");
+        std::fs::write(place.path().join(&file), twin.curve()).unwrap();
+        let found = answer(place.path(), &twin.fit(&file, 0, stated.then_some(twin.noise))).unwrap();
+        assert_eq!(found["residual"]["fits"], true, "{twin:?} {stated}: {}", found["residual"]);
+        for (name, truth) in twin.truth() {
+            let end = |key: &str| found["parameters"][name][key].as_f64().unwrap();
+            assert!(end("low") <= truth && truth <= end("high"), "{twin:?}: {}", found["parameters"]);
+        }
+    });
+}
