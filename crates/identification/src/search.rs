@@ -400,7 +400,7 @@ fn design(
         let share = 0.5 * k as f64 / tests.len() as f64;
         let name = experiments[test[0]].name.clone();
         go_on(observer, share, &format!("{name}: runs of finite elements over plausible metals"))?;
-        let of = |i: usize| points.iter().filter_map(move |p| Some((i, p)));
+        let of = |i: usize| points.iter().map(move |p| (i, p));
         let questions: Vec<(usize, DesignPoint)> = test
             .iter()
             .flat_map(|&i| of(i))
