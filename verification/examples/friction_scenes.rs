@@ -7,20 +7,16 @@
 //! `verification/results/friction-scenes.md`.
 
 use asperity_simulation::record::rows::Summary;
-use asperity_simulation::run::Run;
 use asperity_simulation::scene::{Accuracy, Friction, Scene};
-use asperity_verification::coverage_scenes::Case;
+use asperity_verification::coverage_scenes::{BEYOND_BATTERY, Case};
 use asperity_verification::friction::with_friction;
 use asperity_verification::random_scenes::{Kind, draw};
-use asperity_verification::report::Report;
+use asperity_verification::report::{Report, quantile};
+use asperity_verification::single_asperity::crush;
 use asperity_verification::truth::{Answer, Each, QUANTITIES};
 use rayon::prelude::*;
 use std::error::Error;
-use std::ops::ControlFlow;
 use std::path::Path;
-
-/// The first number of the battery that is not in it.
-const BEYOND_BATTERY: usize = 1000;
 
 /// Coefficients of the scenes in turn, and one that sticks.
 const COEFFICIENTS: [f64; 9] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.7, 1.0];
@@ -32,14 +28,8 @@ fn friction(number: usize) -> Friction {
 
 /// The summary of a run that reached its end.
 fn reached(scene: &Scene) -> Option<Summary> {
-    let outcome = Run::new(scene).run(&mut |_| ControlFlow::Continue(())).ok()?;
+    let outcome = crush(scene).ok()?;
     outcome.stopped.is_none().then_some(outcome.summary)
-}
-
-/// The value below which this share of the sorted `values` lies.
-fn quantile(values: &[f64], share: f64) -> f64 {
-    let last = values.len().saturating_sub(1);
-    values.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -78,20 +68,18 @@ fn random(report: &mut Report, count: usize, seed: u64) -> Result<(), Box<dyn Er
         .collect();
     let mut stopped: Vec<usize> = ends.iter().filter(|(_, end)| end.is_none()).map(|(i, _)| *i).collect();
     stopped.sort_unstable();
-    let [mut more, mut balances] =
+    let [more, balances] =
         [0, 1].map(|k| ends.iter().filter_map(|(_, end)| Some(end.as_ref()?[k])).collect::<Vec<f64>>());
-    more.sort_by(f64::total_cmp);
-    balances.sort_by(f64::total_cmp);
     report.line(&format!(
         "{} of {} that reach their depth without friction reach it with friction ({:.1} %). Iterations an increment \
          over those without: median {:.2}, 90 % {:.2}. Energy balance: median {:.1e}, 90 % {:.1e}.",
         more.len(),
         ends.len(),
         100.0 * more.len() as f64 / ends.len() as f64,
-        quantile(&more, 0.5),
-        quantile(&more, 0.9),
-        quantile(&balances, 0.5),
-        quantile(&balances, 0.9),
+        quantile(more.iter().copied(), 0.5),
+        quantile(more.iter().copied(), 0.9),
+        quantile(balances.iter().copied(), 0.5),
+        quantile(balances.iter().copied(), 0.9),
     ));
     if !stopped.is_empty() {
         let named: Vec<String> = stopped.iter().map(usize::to_string).collect();
@@ -119,18 +107,17 @@ fn stated(report: &mut Report, count: usize) -> Result<(), Box<dyn Error>> {
     report.line(&format!("{missing} of them did not reach their depth at both levels.\n"));
     report.table("| quantity | scenes | bounded, % | median of stated over true |");
     for (i, name) in QUANTITIES.iter().enumerate() {
-        let mut ratios: Vec<f64> = judged
+        let ratios: Vec<f64> = judged
             .iter()
             .flatten()
             .filter_map(|[error, stated]| Some(stated[i]? / error[i]?.max(f64::MIN_POSITIVE)))
             .collect();
-        ratios.sort_by(f64::total_cmp);
         let bounded = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
         report.line(&format!(
             "| {name} | {} | {:.1} | {:.1} |",
             ratios.len(),
             100.0 * bounded as f64 / ratios.len() as f64,
-            quantile(&ratios, 0.5)
+            quantile(ratios.iter().copied(), 0.5)
         ));
     }
     Ok(())

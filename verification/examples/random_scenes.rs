@@ -9,6 +9,7 @@
 //! `verification/results/random-scenes.md`.
 
 use asperity_simulation::scene::Accuracy;
+use asperity_verification::coverage_scenes::BEYOND_BATTERY;
 use asperity_verification::random_scenes::{Done, Drawn, End, Kind, crush_at, draw, of_battery};
 use asperity_verification::report::{Report, timed};
 use rayon::prelude::*;
@@ -22,10 +23,6 @@ use std::time::Duration;
 
 /// Longer than the slowest draft scene by far: what is still running then hangs.
 const LIMIT: Duration = Duration::from_secs(600);
-
-/// The first number of the battery of stated errors that is not in it, and that of one seed after that of
-/// another.
-const BEYOND_BATTERY: usize = 1000;
 
 /// A part of the test: scenes of one generator at one accuracy.
 struct Part {

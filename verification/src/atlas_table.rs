@@ -2,7 +2,7 @@
 
 use crate::atlas::{self, Set};
 use crate::atlas_fit::{Fit, Solved, differences, solved};
-use crate::report::Report;
+use crate::report::{Report, quantile};
 use asperity_calibration::case::Tool;
 use asperity_calibration::cones::Row;
 use asperity_material::cone_atlas::{Atlas, Contact, ERRORS, SharpCone};
@@ -23,14 +23,6 @@ pub fn write(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
     fresh(report, &fit.atlas);
     plateau(report, &fit.atlas);
     representative_strain(report, &fit.atlas);
-}
-
-/// The value below which the share `share` of `values` lies.
-fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().saturating_sub(1);
-    sorted.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
 }
 
 fn held(report: &mut Report, rows: &[Row], cones: &[Solved]) {

@@ -120,6 +120,10 @@ const LEVELS: [Accuracy; 7] = [
 /// Every so many scenes the truth is found with the other element.
 const OTHER_ELEMENT: usize = 13;
 
+/// The first number that is in no table of the battery, and the distance of the numbers of one seed from
+/// those of the next where scenes beside it are drawn.
+pub const BEYOND_BATTERY: usize = 1000;
+
 /// A scene of the battery.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {

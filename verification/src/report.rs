@@ -92,6 +92,14 @@ pub fn replace(file: &Path, content: impl AsRef<[u8]>) -> io::Result<()> {
     std::fs::rename(&part, file)
 }
 
+/// The value below which the share `share` of `values` lies.
+pub fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let last = sorted.len().saturating_sub(1);
+    sorted.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
+}
+
 /// The value of `work`, and the seconds it took.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let clock = Instant::now();

@@ -169,13 +169,18 @@ fn point(question: &DesignPoint) -> Point {
     }
 }
 
+/// A sharp cone of this slope that indents the metal asked for.
+fn indenting(question: &DesignPoint, slope_deg: f64) -> Cone {
+    Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() }
+}
+
 fn sharp(
     question: &DesignPoint,
     slope_deg: f64,
     accuracy: Accuracy,
     analyses: &Analyses,
 ) -> Result<Response, String> {
-    let cone = Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() };
+    let cone = indenting(question, slope_deg);
     let (found, errors) = solve(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
     Ok(Response {
         logarithms: of_cone(&found),
@@ -251,7 +256,7 @@ fn imprint_of_a_cone(
     accuracy: Accuracy,
     analyses: &Analyses,
 ) -> Result<Response, String> {
-    let cone = Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() };
+    let cone = indenting(question, slope_deg);
     let left = residual_surface(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
     of_an_imprint(imprint::numbers(left.points, left.contact_radius), accuracy)
 }
