@@ -28,6 +28,7 @@ mod newton_order;
 mod newton_tolerance;
 mod patch;
 mod penalty_keeps_the_force;
+mod plastic_unloading_stiffness;
 mod plastic_work_of_a_turning_path;
 mod pressure_along_the_contact;
 mod punch;
