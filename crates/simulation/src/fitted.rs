@@ -13,11 +13,10 @@ pub(crate) const FITTED: Fitted = Fitted {
         area_share: 1.0,
         area_share_of_other_element: 0.5,
         widened: 0.6,
-        hidden_force: [0.6, 1.5],
-        hidden_area: 300.0,
-        lost_by_steps: 1.1,
+        hidden_force: [0.2, 0.5],
+        hidden_area: 210.0,
+        lost_by_steps: 1.6,
         rest_in_bound: 2.0,
-        smooth_in_bound: 0.85,
         asymptotic: 0.055,
         line: 0.15,
         onset: 1.25,
@@ -55,21 +54,17 @@ pub(crate) struct FittedErrors {
     /// order leaves. A penetration widens by about 3 of it, of an order near 0.85, which leaves 3 (2 -
     /// 2^0.85). Observed are 0.5 to 0.65 at each level, and in every kind of scene.
     pub widened: f64,
-    /// ln of the force, per penetration over depth, that mesh and penetration hide from the difference of run
-    /// and companion: of quadratic and of linear elements, whose errors in bending and in volume have
-    /// opposite signs.
+    /// ln of the force of a cone at the peak, per penetration over depth, that mesh and penetration hide from
+    /// the difference of run and companion, of an elastic body; twice as much where all work is dissipated. Of
+    /// quadratic and of linear elements, whose errors in bending and in volume have opposite signs.
     pub hidden_force: [f64; 2],
-    /// ln of the area, per square of penetration over depth, that they hide.
+    /// ln of the area at the peak, per square of penetration over depth, that they hide.
     pub hidden_area: f64,
-    /// Force that steps lose at the peak, over the square of the last one's length in ln h: steps of 0.17 to
-    /// 0.36 lose 3 to 8 %, and their companion no more.
+    /// ln of the force of a cone that steps lose at the peak where all work is dissipated, over the square of
+    /// the last one's length in ln h: steps of 0.17 to 0.36 lose 3 to 8 %, and their companion no more.
     pub lost_by_steps: f64,
     /// The rest of the difference that the bound allows for, over the largest that is seen.
     pub rest_in_bound: f64,
-    /// Share of the smooth part of a difference in its bound. What is left of it where the order is not the
-    /// assumed one is less: of the area 0.45 at most for orders between 0.8 and 1.5, of the force for orders
-    /// between 1 and 2.
-    pub smooth_in_bound: f64,
     /// Largest smooth part of which a share is subtracted: a companion that differs by more is in no
     /// asymptotic range, and the whole difference stays in the bound.
     pub asymptotic: f64,

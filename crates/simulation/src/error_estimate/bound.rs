@@ -16,10 +16,27 @@ pub(super) struct Quantity {
     share: f64,
     /// ln Q that the penetration is known to add beyond that.
     widened: f64,
-    /// Relative error that run and companion may hide.
-    hidden: f64,
-    /// Factor of what is seen of the difference in the bound of what is left of it.
+    /// Relative errors at the peak that run and companion may hide.
+    hidden: Hidden,
+    /// Factor of what is seen of the difference in the bound of what no order is known of.
     safety: f64,
+}
+
+/// Relative errors at the peak that run and companion may hide.
+#[derive(Clone, Copy)]
+struct Hidden {
+    /// Of the penetration: an even pressure presses it in alike at all depths, of which it is a share that
+    /// falls as 1/h.
+    penetration: f64,
+    /// At all depths.
+    even: f64,
+}
+
+impl Hidden {
+    /// At ln(h/h_peak).
+    fn at(self, x: f64) -> f64 {
+        (self.penetration * (-x).exp()).hypot(self.even)
+    }
 }
 
 /// The numbers of a run that its bounds depend on, beside the two curves.
@@ -45,10 +62,16 @@ const GRID_CONVERGENCE_SAFETY: f64 = 1.25;
 const SPAN_BEFORE_PEAK: f64 = 0.35;
 
 impl Setting {
-    pub(super) fn force(self) -> Quantity {
+    /// The force of a run that has dissipated this share of its work at the peak: elastic paths do not depend
+    /// on their steps, and yielding is what meshes err in most. At equal pressures a depth decides the force by
+    /// its square in axisymmetry, by itself in plane strain.
+    pub(super) fn force(self, dissipated: f64) -> Quantity {
         let fitted = FITTED.errors;
-        let balanced = fitted.hidden_force_of(self.element);
-        let hidden = (balanced * self.penetration).hypot(fitted.lost_by_steps * self.log_step.powi(2));
+        let power = lengths(self.symmetry) / 2.0;
+        let hidden = Hidden {
+            penetration: fitted.hidden_force_of(self.element) * (1.0 + dissipated) * power * self.penetration,
+            even: fitted.lost_by_steps * dissipated * power * self.log_step.powi(2),
+        };
         let share = if self.same_mesh { 0.0 } else { fitted.force_share };
         Quantity { smooth: polynomial::<3>, share, widened: 0.0, hidden, safety: 1.0 }
     }
@@ -60,7 +83,7 @@ impl Setting {
         } else {
             (fitted.area_share, fitted.widened * self.penetration * lengths(self.symmetry))
         };
-        let hidden = fitted.hidden_area * self.penetration.powi(2);
+        let hidden = Hidden { penetration: fitted.hidden_area * self.penetration.powi(2), even: 0.0 };
         Quantity { smooth: even_or_line, share, widened, hidden, safety: GRID_CONVERGENCE_SAFETY }
     }
 }
@@ -70,7 +93,8 @@ impl Quantity {
     /// known of the order of its errors, and the place of the front to an edge alone.
     pub fn within_an_edge(self, elements: usize, symmetry: Symmetry) -> Quantity {
         let edge = lengths(symmetry) / elements as f64;
-        Quantity { share: 0.0, widened: 0.0, hidden: self.hidden.hypot(edge), ..self }
+        let hidden = Hidden { even: self.hidden.even.hypot(edge), ..self.hidden };
+        Quantity { share: 0.0, widened: 0.0, hidden, ..self }
     }
 }
 
@@ -169,13 +193,13 @@ impl Difference {
         let [smooth, rest, own] = within.fold([0.0; 3], largest);
         // the companion ripples more; the run itself has kinks that are no ripple
         let rest = self.of.safety * FITTED.errors.rest_in_bound * rest.min(own);
-        smooth.hypot(rest).hypot(self.of.hidden)
+        smooth.hypot(rest).hypot(self.of.hidden.at(from.max(LEAST_COUNTED_DEPTH.ln())))
     }
 
     /// Factor of the smooth part in a bound after this share of it is subtracted: where none is, nothing is
     /// known of its order.
     fn kept(&self, share: f64) -> f64 {
-        if share > 0.0 { self.of.safety * FITTED.errors.smooth_in_bound } else { self.of.safety }
+        if share > 0.0 { 1.0 } else { self.of.safety }
     }
 
     pub fn whole(&self) -> f64 {
@@ -227,7 +251,7 @@ mod tests {
     /// Errors of the orders that are assumed vanish: ln Q is off by e and that of the companion by 2ᵖ e.
     #[test]
     fn errors_of_the_assumed_order_are_taken_off_whole() {
-        for (of, order) in [(SETTING.force(), 1.5), (SETTING.area(), 1.0)] {
+        for (of, order) in [(SETTING.force(1.0), 1.5), (SETTING.area(), 1.0)] {
             for sign in [1.0, -1.0] {
                 let error = |x: f64| sign * (0.008 + 0.002 * x);
                 let companion = difference(of, |x| (2_f64.powf(order) - 1.0) * error(x));
@@ -277,7 +301,7 @@ mod tests {
         };
         let depths = (0..DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * (1.0 - i as f64 / (DEPTHS - 1) as f64));
         let points: Vec<[f64; 2]> = depths.map(|x| [x, d(x)]).collect();
-        for of in [SETTING.force(), SETTING.area()] {
+        for of in [SETTING.force(1.0), SETTING.area()] {
             let found = Difference::new(points.clone(), vec![0.0; DEPTHS], &[[begin, end]], of).unwrap();
             assert!(
                 found.near_peak() < 0.01 && found.whole() >= 0.6,
@@ -296,7 +320,7 @@ mod tests {
     /// Of other orders the rest is bounded, within the asymptotic range.
     #[test]
     fn what_is_left_is_bounded() {
-        for (of, orders) in [(SETTING.force(), [1.0, 2.0]), (SETTING.area(), [0.8, 1.5])] {
+        for (of, orders) in [(SETTING.force(1.0), [1.0, 2.0]), (SETTING.area(), [0.8, 1.5])] {
             for (order, size) in orders.into_iter().flat_map(|p| [(p, 0.01), (p, 0.04)]) {
                 for error in [size, -size] {
                     let companion = difference(of, |_| (2_f64.powf(order) - 1.0) * error);

@@ -10,11 +10,11 @@
 //!   the area.
 //! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after
 //!   Richardson's extrapolation of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and subtracted too.
-//! * The bound of the remainder is, added in squares, the largest smooth part from a fifth of the depth on
-//!   and twice the largest rest, of the area both with Roache's factor of safety, and what errors of mesh and
+//! * The bound of the remainder is, added in squares, the largest smooth part from a fifth of the depth on,
+//!   twice the largest rest, of the area with Roache's factor of safety, and what errors of mesh and
 //!   penetration, which have opposite signs, may hide from each other by chance (of the force also what
-//!   coarse steps lose). The rest is that of D, or that of the run from a smooth curve of its own where it is
-//!   less: the companion ripples more.
+//!   coarse steps lose): less of a body that dissipates little of its work. The rest is that of D, or that of
+//!   the run from a smooth curve of its own where it is less: the companion ripples more.
 //! * Where another asperity begins to carry, run and companion differ by what it carries: that stretch of
 //!   depths has no smooth part, parts those before and after it, and counts whole in the bound.
 //! * A companion that differs too much is in no asymptotic range: no share of D is subtracted.
@@ -33,13 +33,13 @@
 //! has that of its neighbourhood. A companion that ends before the run says nothing of the peak itself: the
 //! largest bound stands for it.
 //!
-//! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or
+//! The mean pressure is force over area: its bound is theirs in squares. Other values read at the peak or
 //! after it are not extrapolated. Their bound is the difference itself, and what the stated errors of force
-//! and stiffness near the peak (in squares) would do to it, since two runs may agree by chance; to that of
-//! the stiffness, half the bound of the area there is added. The elastic fraction has them in squares, and
-//! with them the work over the depths that the energies of the body do not account for. What transfers to
-//! better meshes took and gave is added to both whole: the companion has transfers of its own, at other
-//! depths.
+//! and stiffness near the peak would do to it, since two runs may agree by chance; to that of the stiffness,
+//! half the bound of the area there is added in squares. The elastic fraction has the two in squares, and
+//! where the energies of the body leave more of the work over the depths unaccounted, that in the place of the
+//! second. What transfers to better meshes took and gave is added to both whole: the companion has transfers
+//! of its own, at other depths.
 
 mod bound;
 mod rescale;
@@ -123,7 +123,7 @@ impl Comparison {
             setting.area().within_an_edge(run.numbers.elements_in_contact, setting.symmetry)
         };
         Some(Comparison {
-            force: compared(force, setting.force(), UNLOADING_EXPONENT)?,
+            force: compared(force, setting.force(dissipated(top)), UNLOADING_EXPONENT)?,
             area: compared(area, of_area, UNLOADING_AREA_EXPONENT)?,
             depth: top.depth,
             ended_early: other < end,
@@ -150,7 +150,7 @@ impl Comparison {
         let relative = |own: Option<f64>, other: Option<f64>| Some((other? / own? - 1.0).abs());
         let unloading_stiffness = relative(summary.unloading_stiffness, companion.unloading_stiffness);
         let [force, area] = [&self.force, &self.area].map(|of| self.at_peak(of));
-        let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * area);
+        let unloading_stiffness = unloading_stiffness.map(|s| s.hypot(0.5 * area));
         let indirect = force.hypot(unloading_stiffness.unwrap_or(0.0));
         let difference = |own: Option<f64>, other: Option<f64>| Some((other? - own?).abs());
         let share = |x: f64| x * (1.0 - x) * indirect;
@@ -164,8 +164,7 @@ impl Comparison {
         Errors {
             force,
             contact_area: area,
-            // force and area may err in opposite directions
-            mean_pressure: force + area,
+            mean_pressure: force.hypot(area),
             depth: None,
             residual_depth: difference(summary.residual_depth, companion.residual_depth)
                 .zip(residual)
@@ -173,7 +172,7 @@ impl Comparison {
             elastic_fraction: difference(summary.elastic_fraction, companion.elastic_fraction)
                 .zip(elastic)
                 .map(|(d, e)| {
-                    let left = d.hypot(share(e)).hypot(unaccounted(&run.rows));
+                    let left = d.hypot(share(e).max(unaccounted(&run.rows)));
                     (left + transferred).max(LEAST_STATED_ERROR)
                 }),
             unloading_stiffness,
@@ -183,7 +182,7 @@ impl Comparison {
     /// The largest bounds along the curve.
     fn errors_along(&self) -> ErrorsAlong {
         let [force, contact_area] = [&self.force, &self.area].map(|of| of.difference.whole());
-        ErrorsAlong { force, contact_area, mean_pressure: force + contact_area }
+        ErrorsAlong { force, contact_area, mean_pressure: force.hypot(contact_area) }
     }
 
     /// The row without the errors that are known.
@@ -342,6 +341,12 @@ pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: 
 fn transferred(rows: &[CurveRow]) -> f64 {
     let each = rows.windows(2).map(|pair| (pair[1].transfer_energy - pair[0].transfer_energy).abs());
     each.sum::<f64>() / largest_work(rows)
+}
+
+/// Share of the work up to this row that yielding and friction have taken.
+fn dissipated(row: &CurveRow) -> f64 {
+    let taken = row.plastic_work + row.friction_work.unwrap_or(0.0);
+    if row.external_work > 0.0 { (taken / row.external_work).clamp(0.0, 1.0) } else { 1.0 }
 }
 
 /// Work over the depths of an unloaded run that the energies of its body do not account for, over the
