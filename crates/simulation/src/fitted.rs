@@ -15,7 +15,10 @@ pub(crate) const FITTED: Fitted = Fitted {
         widened: 0.6,
         hidden_force: [0.2, 0.5],
         hidden_area: 210.0,
-        lost_by_steps: 1.6,
+        lost_by_steps: 1.8,
+        toward_touch: 0.5,
+        kept_of_force: 1.25,
+        kept_of_area: 1.0,
         rest_in_bound: 2.0,
         asymptotic: 0.055,
         line: 0.15,
@@ -63,6 +66,14 @@ pub(crate) struct FittedErrors {
     /// ln of the force of a cone that steps lose at the peak where all work is dissipated, over the square of
     /// the last one's length in ln h: steps of 0.17 to 0.36 lose 3 to 8 %, and their companion no more.
     pub lost_by_steps: f64,
+    /// Power of 1/h with which what mesh and penetration hide grows toward the first touch. Of the depth, a
+    /// penetration under an even pressure is a share that falls as 1/h, and an edge one that does not change.
+    pub toward_touch: f64,
+    /// Factor of the smooth part of the force in its bound. What is left of it where the order is not the
+    /// assumed one is less, for orders between 1 and 2.
+    pub kept_of_force: f64,
+    /// The same of the area, of which 0.45 at most is left for orders between 0.8 and 1.5.
+    pub kept_of_area: f64,
     /// The rest of the difference that the bound allows for, over the largest that is seen.
     pub rest_in_bound: f64,
     /// Largest smooth part of which a share is subtracted: a companion that differs by more is in no

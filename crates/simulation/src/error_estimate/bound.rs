@@ -18,16 +18,17 @@ pub(super) struct Quantity {
     widened: f64,
     /// Relative errors at the peak that run and companion may hide.
     hidden: Hidden,
-    /// Factor of what is seen of the difference in the bound of what no order is known of.
+    /// Factor of the smooth part in the bound of what is left of it.
+    kept: f64,
+    /// Factor of what no order is known of.
     safety: f64,
 }
 
 /// Relative errors at the peak that run and companion may hide.
 #[derive(Clone, Copy)]
 struct Hidden {
-    /// Of the penetration: an even pressure presses it in alike at all depths, of which it is a share that
-    /// falls as 1/h.
-    penetration: f64,
+    /// Of mesh and penetration, of which the smaller depths have larger shares.
+    balanced: f64,
     /// At all depths.
     even: f64,
 }
@@ -35,7 +36,7 @@ struct Hidden {
 impl Hidden {
     /// At ln(h/h_peak).
     fn at(self, x: f64) -> f64 {
-        (self.penetration * (-x).exp()).hypot(self.even)
+        (self.balanced * (-FITTED.errors.toward_touch * x).exp()).hypot(self.even)
     }
 }
 
@@ -69,11 +70,18 @@ impl Setting {
         let fitted = FITTED.errors;
         let power = lengths(self.symmetry) / 2.0;
         let hidden = Hidden {
-            penetration: fitted.hidden_force_of(self.element) * (1.0 + dissipated) * power * self.penetration,
+            balanced: fitted.hidden_force_of(self.element) * (1.0 + dissipated) * power * self.penetration,
             even: fitted.lost_by_steps * dissipated * power * self.log_step.powi(2),
         };
         let share = if self.same_mesh { 0.0 } else { fitted.force_share };
-        Quantity { smooth: polynomial::<3>, share, widened: 0.0, hidden, safety: 1.0 }
+        Quantity {
+            smooth: polynomial::<3>,
+            share,
+            widened: 0.0,
+            hidden,
+            kept: fitted.kept_of_force,
+            safety: 1.0,
+        }
     }
 
     pub(super) fn area(self) -> Quantity {
@@ -83,8 +91,9 @@ impl Setting {
         } else {
             (fitted.area_share, fitted.widened * self.penetration * lengths(self.symmetry))
         };
-        let hidden = Hidden { penetration: fitted.hidden_area * self.penetration.powi(2), even: 0.0 };
-        Quantity { smooth: even_or_line, share, widened, hidden, safety: GRID_CONVERGENCE_SAFETY }
+        let hidden = Hidden { balanced: fitted.hidden_area * self.penetration.powi(2), even: 0.0 };
+        let safety = GRID_CONVERGENCE_SAFETY;
+        Quantity { smooth: even_or_line, share, widened, hidden, kept: fitted.kept_of_area, safety }
     }
 }
 
@@ -199,7 +208,7 @@ impl Difference {
     /// Factor of the smooth part in a bound after this share of it is subtracted: where none is, nothing is
     /// known of its order.
     fn kept(&self, share: f64) -> f64 {
-        if share > 0.0 { 1.0 } else { self.of.safety }
+        if share > 0.0 { self.of.kept } else { self.of.safety }
     }
 
     pub fn whole(&self) -> f64 {
