@@ -1,5 +1,5 @@
-//! Claim: `rough --judge crush` crushes summits of the surface, and the two closures that know the metal carry
-//! what finite elements carry: "calibrated" and "half-space-plastic", each from its own model.
+//! Claim: `rough --judge crush` crushes summits of the surface, and the two closures that know the metal
+//! carry what finite elements carry: "calibrated" and "half-space-plastic", each from its own model.
 //!
 //! Source: finite elements at `draft` of the extracted profiles. Tolerance: 10 % of the force and 15 % of the
 //! area, twice what the models differ by on this surface (2 to 4 %, 3 to 11 %) and what `draft` promises;

@@ -58,8 +58,8 @@ pub(crate) struct FittedErrors {
     /// 2^0.85). Observed are 0.5 to 0.65 at each level, and in every kind of scene.
     pub widened: f64,
     /// ln of the force of a cone at the peak, per penetration over depth, that mesh and penetration hide from
-    /// the difference of run and companion, of an elastic body; twice as much where all work is dissipated. Of
-    /// quadratic and of linear elements, whose errors in bending and in volume have opposite signs.
+    /// the difference of run and companion, of an elastic body; twice as much where all work is dissipated.
+    /// Of quadratic and of linear elements, whose errors in bending and in volume have opposite signs.
     pub hidden_force: [f64; 2],
     /// ln of the area at the peak, per square of penetration over depth, that they hide.
     pub hidden_area: f64,

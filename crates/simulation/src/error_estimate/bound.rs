@@ -34,8 +34,8 @@ struct Hidden {
 }
 
 impl Hidden {
-    /// At ln(h/h_peak).
-    fn at(self, x: f64) -> f64 {
+    /// Both, in squares, at the logarithm `x` of the depth over that of the peak.
+    fn in_squares(self, x: f64) -> f64 {
         (self.balanced * (-FITTED.errors.toward_touch * x).exp()).hypot(self.even)
     }
 }
@@ -64,8 +64,8 @@ const SPAN_BEFORE_PEAK: f64 = 0.35;
 
 impl Setting {
     /// The force of a run that has dissipated this share of its work at the peak: elastic paths do not depend
-    /// on their steps, and yielding is what meshes err in most. At equal pressures a depth decides the force by
-    /// its square in axisymmetry, by itself in plane strain.
+    /// on their steps, and yielding is what meshes err in most. At equal pressures a depth decides the force
+    /// by its square in axisymmetry, by itself in plane strain.
     pub(super) fn force(self, dissipated: f64) -> Quantity {
         let fitted = FITTED.errors;
         let power = lengths(self.symmetry) / 2.0;
@@ -202,7 +202,7 @@ impl Difference {
         let [smooth, rest, own] = within.fold([0.0; 3], largest);
         // the companion ripples more; the run itself has kinks that are no ripple
         let rest = self.of.safety * FITTED.errors.rest_in_bound * rest.min(own);
-        smooth.hypot(rest).hypot(self.of.hidden.at(from.max(LEAST_COUNTED_DEPTH.ln())))
+        smooth.hypot(rest).hypot(self.of.hidden.in_squares(from.max(LEAST_COUNTED_DEPTH.ln())))
     }
 
     /// Factor of the smooth part in a bound after this share of it is subtracted: where none is, nothing is

@@ -37,9 +37,9 @@
 //! after it are not extrapolated. Their bound is the difference itself, and what the stated errors of force
 //! and stiffness near the peak would do to it, since two runs may agree by chance; to that of the stiffness,
 //! half the bound of the area there is added in squares. The elastic fraction has the two in squares, and
-//! where the energies of the body leave more of the work over the depths unaccounted, that in the place of the
-//! second. What transfers to better meshes took and gave is added to both whole: the companion has transfers
-//! of its own, at other depths.
+//! where the energies of the body leave more of the work over the depths unaccounted, that in the place of
+//! the second. What transfers to better meshes took and gave is added to both whole: the companion has
+//! transfers of its own, at other depths.
 
 mod bound;
 mod rescale;
