@@ -1,5 +1,6 @@
 //! Claim: the unloading stiffness of a yielded contact, over the width of the contact, is that of the body
-//! and not of the springs of the penalty: springs sixteen times apart give the same, and so does a finer mesh.
+//! and not of the springs of the penalty: springs sixteen times apart give the same, and so does a finer
+//! mesh.
 //!
 //! Source: the program's own run at `reference` with half the penetration. Springs in series with a punch of
 //! 2 E* a lose E*/(ε a) of the stiffness and more, 1 to 3 % for the softest of these: the slope of the
