@@ -1,8 +1,8 @@
 //! Test of the errors that a run states against the true ones: 630 scenes at all levels. The page of
 //! stated errors says which constants had seen them.
 //!
-//! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO] [--level LEVEL]
-//! [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The
+//! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO[,FROM..TO]]
+//! [--level LEVEL] [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The
 //! table is `verification/results/coverage.md`.
 //!
 //! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every
@@ -307,7 +307,7 @@ enum Task {
 struct Options {
     task: Task,
     cache: PathBuf,
-    scenes: Range<usize>,
+    scenes: Vec<Range<usize>>,
     scene: Option<usize>,
     level: Option<Accuracy>,
     budget: f64,
@@ -321,14 +321,17 @@ fn options(words: &[String]) -> Result<Options, Box<dyn Error>> {
         _ => (Task::Measure, words),
     };
     let mut options =
-        Options { task, cache, scenes: SCENES, scene: None, level: None, budget: f64::INFINITY };
+        Options { task, cache, scenes: vec![SCENES], scene: None, level: None, budget: f64::INFINITY };
     for pair in words.chunks(2) {
         let [key, value] = pair else { return Err(format!("{} needs a value", pair[0]).into()) };
         match key.as_str() {
             "--cache" => options.cache = value.into(),
             "--scenes" => {
-                let (from, to) = value.split_once("..").ok_or("--scenes takes FROM..TO")?;
-                options.scenes = from.parse()?..to.parse()?;
+                let range = |words: &str| -> Result<Range<usize>, Box<dyn Error>> {
+                    let (from, to) = words.split_once("..").ok_or("--scenes takes FROM..TO")?;
+                    Ok(from.parse()?..to.parse()?)
+                };
+                options.scenes = value.split(',').map(range).collect::<Result<_, _>>()?;
             }
             "--scene" => options.scene = Some(value.parse()?),
             "--level" => options.level = Some(value.parse()?),
@@ -352,7 +355,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         show(make(number)?, &truths);
         return Ok(());
     }
-    let cases: Vec<Case> = options.scenes.clone().map(make).collect::<Result<_, _>>()?;
+    let cases: Vec<Case> = options.scenes.iter().cloned().flatten().map(make).collect::<Result<_, _>>()?;
     match options.task {
         Task::Measure => {}
         Task::Pack => {
