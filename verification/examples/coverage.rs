@@ -2,8 +2,8 @@
 //! stated errors says which constants had seen them.
 //!
 //! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO[,FROM..TO]]
-//! [--level LEVEL] [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The
-//! table is `verification/results/coverage.md`.
+//! [--level LEVEL] [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene
+//! and its row. The table is `verification/results/coverage.md`.
 //!
 //! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every
 //! run is; of some scenes with the other element. Those that were found are in
