@@ -134,7 +134,7 @@ impl Task {
             steps.push(Step { cutoff: *cutoff, wave: scale.wave, grid, sq, slopes, contacts });
         }
         let fit = SelfAffine::new(&surface.map, &spectrum);
-        let growth = power.growth(fit.map(|fit| fit.hurst.value));
+        let growth = power.growth();
         let verdicts = verdicts(&steps, growth, fit.is_some_and(|fit| fit.has_rolloff()));
         Ok(Some(Scales { steps, pressure, spectrum, fit, growth, regimes, verdicts, overloaded }))
     }

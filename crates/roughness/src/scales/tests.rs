@@ -149,7 +149,7 @@ fn a_map_that_ends_before_its_pixel_has_converged_and_one_that_goes_on_has_not()
         let surface = self_affine(128, 0.6, [32.0, cutoff], 7);
         let found = task().follow(&surface, pressure, &mut |_, _, _| true).unwrap().unwrap();
         let of = found.verdicts.iter().find(|j| j.quantity == quantity && !j.limited).unwrap().verdict;
-        (of.class, of.exponent.unwrap(), found.growth.goes_on)
+        (of.class, of.exponent.unwrap(), found.growth.goes_on())
     };
     let (ended, _, goes_on) = class(12.0, Quantity::Slope);
     assert!(ended == Class::Converged && !goes_on);
