@@ -10,7 +10,7 @@ use asperity_roughness::scales::{By, Interval, Judged, Scales, Verdict};
 use std::collections::BTreeMap;
 
 row! {
-    /// A number with its 95 % interval.
+    /// A number with its 90 % interval.
     #[derive(Copy)]
     IntervalRow(found: Interval, unit: f64) {
         /// The number; none of a roll-off longer than the map.

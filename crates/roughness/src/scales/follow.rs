@@ -166,7 +166,7 @@ impl Task {
             // the grid of the last scale may be this one, and its contact near
             let (found, contact) =
                 press_scale(&HalfSpace { limit, ..self.body }, surface, pressure, regimes, start.as_ref())?;
-            contacts.push((by, Numbers::from(&found)));
+            contacts.push((by, found));
             *start = Some(contact);
         }
         // a closure that does not carry the load has no contact at this scale

@@ -14,7 +14,7 @@ use super::slope_power::Growth;
 const CONVERGED: f64 = 0.15;
 const CONVERGED_AT_END: f64 = 0.2;
 /// Fall of e by an octave from which on it counts as steady.
-const STEADY: f64 = 0.75;
+const STEADY: f64 = 0.7;
 /// Times that what is to come may be off, and that e may fall by.
 const DOUBT: f64 = 1.5;
 const LEAST_FALL: f64 = 0.5;
@@ -156,7 +156,9 @@ impl Octaves {
         let [least, most] = series.range.map(|end| (end / value).ln());
         let possible = |change: f64| change.max(least.min(0.0)).min(most.max(0.0));
         let expected = come(1.0, fall, self.growth.expected);
-        let saturates = expected <= least || expected >= most;
+        // finer waves without end change what no longer ones decide, and no limit
+        let steady = goes_on && fall >= STEADY && !series.of_long_waves;
+        let steady = steady && expected > least && expected < most;
         let expected = possible(expected);
         let ends = [
             come(1.0, LEAST_FALL * fall, self.growth.least),
@@ -181,7 +183,7 @@ impl Octaves {
         };
         if bound <= if goes_on { CONVERGED } else { CONVERGED_AT_END } {
             found
-        } else if goes_on && fall >= STEADY && expected.abs() > CONVERGED && !saturates {
+        } else if steady && expected.abs() > CONVERGED {
             Verdict { class: Class::NotConverging, error: None, ..found }
         } else {
             let left = (high - expected).exp_m1().max(-(low - expected).exp_m1());
