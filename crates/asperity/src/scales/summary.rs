@@ -10,7 +10,7 @@ use asperity_roughness::scales::{By, Interval, Judged, Scales, Verdict};
 use std::collections::BTreeMap;
 
 row! {
-    /// A number with its 95 % interval.
+    /// A number with its 90 % interval.
     #[derive(Copy)]
     IntervalRow(found: Interval, unit: f64) {
         /// The number; none of a roll-off longer than the map.
@@ -31,7 +31,11 @@ row! {
         from_um: Option<f64> = found.from.map(|from| from / MICROMETRE),
         /// Relative bound of what waves of two finer octaves change of the value, of one that is converging of the extrapolated one; none where it is not converging or the map too small.
         error: Option<f64> = found.error,
-        /// log2 of the factor by which the next finer octave changes it.
+        /// The least value that two finer octaves leave, as far as the spectrum tells; none of a map too small.
+        low: Option<f64> = found.range.map(|range| range[0] / unit),
+        /// The largest.
+        high: Option<f64> = found.range.map(|range| range[1] / unit),
+        /// log2 of the factor by which the next finer octave changes it, as expected.
         exponent: Option<f64> = found.exponent,
         /// On the whole map, in the unit of its column.
         value: f64 = found.value / unit,
@@ -64,7 +68,7 @@ row! {
         /// Shortest wave of its power law.
         shortest_um: Option<IntervalRow> = found.fit.map(|fit| IntervalRow::new(fit.shortest, MICROMETRE)),
         /// True where the spectrum goes on to the pixel, so that a finer map is expected to hold finer waves.
-        spectrum_goes_on: bool = found.growth.goes_on,
+        spectrum_goes_on: bool = found.growth.goes_on(),
         /// The filter of the cut-offs, in words.
         filter: String = "Gaussian (ISO 16610-61), edges and missing points by its weights; the whole map is not filtered".into(),
         /// The window of the spectrum, in words.

@@ -134,7 +134,7 @@ impl Task {
             steps.push(Step { cutoff: *cutoff, wave: scale.wave, grid, sq, slopes, contacts });
         }
         let fit = SelfAffine::new(&surface.map, &spectrum);
-        let growth = power.growth(fit.map(|fit| fit.hurst.value));
+        let growth = power.growth();
         let verdicts = verdicts(&steps, growth, fit.is_some_and(|fit| fit.has_rolloff()));
         Ok(Some(Scales { steps, pressure, spectrum, fit, growth, regimes, verdicts, overloaded }))
     }
@@ -166,7 +166,7 @@ impl Task {
             // the grid of the last scale may be this one, and its contact near
             let (found, contact) =
                 press_scale(&HalfSpace { limit, ..self.body }, surface, pressure, regimes, start.as_ref())?;
-            contacts.push((by, Numbers::from(&found)));
+            contacts.push((by, found));
             *start = Some(contact);
         }
         // a closure that does not carry the load has no contact at this scale

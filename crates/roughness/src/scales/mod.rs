@@ -31,7 +31,7 @@ mod verdict;
 
 mod sentence;
 
-pub use contact::{ScaleContact, press_scale};
+pub use contact::press_scale;
 pub use cutoffs::{PIXELS_PER_WAVE, Scale, cutoffs};
 pub use follow::{Scales, ScalesError, Task};
 pub use numbers::{By, Numbers, Step};

@@ -1,6 +1,5 @@
 //! Numbers of a contact at one scale that a closure, a half-space or a theory may have.
 
-use super::contact::ScaleContact;
 use super::persson::PerssonArea;
 use super::slopes::Slopes;
 use crate::Contact;
@@ -86,26 +85,6 @@ pub struct Step {
     pub slopes: Slopes,
     /// Its contacts.
     pub contacts: Vec<(By, Numbers)>,
-}
-
-impl From<&ScaleContact> for Numbers {
-    fn from(found: &ScaleContact) -> Numbers {
-        Numbers {
-            area_ratio: Some(found.area.ratio),
-            area: Some(found.area),
-            mean_pressure: found.mean_pressure,
-            pressures: found.pressures.map_or([None; 3], |p| p.map(Some)),
-            mean_gap: Some(found.mean_gap),
-            critical_gaps: found.critical_gaps,
-            leaks: found.leaks,
-            leak_errors: found.leak_errors,
-            stiffness: found.stiffness,
-            by_load: found.shares.map_or([None; 3], |shares| shares.load.map(Some)),
-            by_area: found.shares.map_or([None; 3], |shares| shares.area.map(Some)),
-            limit: found.limit,
-            limited_share: Some(found.limited_share),
-        }
-    }
 }
 
 impl Numbers {

@@ -13,8 +13,8 @@ use asperity_numerics::bisection::bisect;
 const SCATTER: f64 = 0.1;
 /// The price of a band that is left out beyond the end, as a deviance; one that follows the law has 1.
 const PRICE: f64 = 6.0;
-/// The deviance by which the ends of 95 % intervals are above the least (χ² of one degree of freedom).
-const INTERVAL: f64 = 3.84;
+/// The deviance by which the ends of 90 % intervals are above the least (χ² of one degree of freedom).
+const INTERVAL: f64 = 2.71;
 /// Waves of a window of Hann that are as one independent wave (35/18 along each axis).
 const WAVES_OF_WINDOW: f64 = 3.78;
 /// Longest wave of a map that is not periodic, in shares of its side: longer ones are the window's.
@@ -31,7 +31,7 @@ const HALF_BAND: f64 = 1.0 / 16.0;
 /// Steps of H in its interval.
 const HURST_STEP: f64 = 0.0025;
 
-/// A number with its 95 % interval; an end that the map does not hold is infinite or 0.
+/// A number with its 90 % interval; an end that the map does not hold is infinite or 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// The number.

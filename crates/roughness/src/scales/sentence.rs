@@ -80,7 +80,7 @@ impl Scales {
         if let Some(ended) = self.hardness_ends() {
             parts.push(format!("from {} um on hardness ends the growth of pressure", micrometres(ended)));
         }
-        let grows = if self.growth.goes_on { "goes on below" } else { "ends above" };
+        let grows = if self.growth.goes_on() { "goes on below" } else { "ends above" };
         format!(
             "{} MPa: {}. The spectrum {grows} the pixel. Cut-off to use: {} um.",
             rounded(self.pressure * 1e-6, DIGITS),
@@ -114,14 +114,22 @@ impl Scales {
                 ))
             }
             Class::Converging => {
-                let [now, end] =
-                    [found.value, found.extrapolated.unwrap_or(f64::NAN)].map(|value| number(value / unit));
-                Some(format!("{words} still changes, from {now} to {end} ± {error} % with two finer octaves"))
+                let now = number(found.value / unit);
+                let [low, high] = found.range?.map(|value| number(value / unit));
+                Some(format!(
+                    "{words} still changes, from {now} to between {low} and {high} with two finer octaves"
+                ))
             }
             Class::NotConverging => {
-                let change = 2f64.powf(found.exponent.unwrap_or(0.0)) - 1.0;
-                let way = if change < 0.0 { "falls" } else { "grows" };
-                Some(format!("{words} {way} by {} % with each finer octave", percent(change.abs())))
+                let octave = |end: f64| (end / found.value).sqrt() - 1.0;
+                let mut changes = found.range?.map(octave);
+                changes.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+                let falls = changes[1] < 0.0;
+                // what may be of the other sign is none
+                let least = if (changes[0] < 0.0) == falls { changes[0].abs() } else { 0.0 };
+                let [least, most] = [least, changes[1].abs()].map(percent);
+                let way = if falls { "falls" } else { "grows" };
+                Some(format!("{words} {way} by {least} to {most} % with each finer octave"))
             }
         }
     }

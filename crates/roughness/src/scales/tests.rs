@@ -138,7 +138,7 @@ fn hurst_exponent_and_rolloff_lie_in_their_intervals() {
         assert!(fit.hurst.high - fit.hurst.low < 0.2 && fit.has_rolloff(), "{fit:?}");
         assert!((fit.shortest.low..=fit.shortest.high).contains(&4e-6), "{fit:?}");
     }
-    // 95 % intervals, four maps
+    // 90 % intervals, four maps
     assert!(inside[0] >= 3 && inside[1] >= 3, "{inside:?}");
 }
 
@@ -149,7 +149,7 @@ fn a_map_that_ends_before_its_pixel_has_converged_and_one_that_goes_on_has_not()
         let surface = self_affine(128, 0.6, [32.0, cutoff], 7);
         let found = task().follow(&surface, pressure, &mut |_, _, _| true).unwrap().unwrap();
         let of = found.verdicts.iter().find(|j| j.quantity == quantity && !j.limited).unwrap().verdict;
-        (of.class, of.exponent.unwrap(), found.growth.goes_on)
+        (of.class, of.exponent.unwrap(), found.growth.goes_on())
     };
     let (ended, _, goes_on) = class(12.0, Quantity::Slope);
     assert!(ended == Class::Converged && !goes_on);
@@ -190,4 +190,32 @@ fn a_tip_and_noise_limit_the_trust() {
     assert!(trusted(&[surface.clone(), again], None).unwrap().is_some_and(|cutoff| cutoff > 1e-6));
     let other = self_affine(64, 0.6, [32.0, 4.0], 3);
     assert!(matches!(trusted(&[surface, other], None), Err(ScalesError::Repeated(..))));
+}
+
+/// A map of 512², seen by pixels four times wider that are means or picked points, grows by two octaves as
+/// its bounds say: whatever the sampling, the exponent, and an end between the map and the surface.
+#[test]
+fn the_slope_of_finer_maps_grows_between_its_bounds() {
+    let grown = |hurst: f64, shortest: f64, means: bool| {
+        let fine = self_affine(512, hurst, [96.0, shortest], 11);
+        let side = if means { 4 } else { 1 };
+        let mean = |i: usize| {
+            let [x, y] = [i % 128 * 4, i / 128 * 4];
+            let sum: f64 = (y..y + side).flat_map(|y| &fine.map.row(y)[x..x + side]).sum();
+            sum / (side * side) as f64
+        };
+        let coarse = HeightMap::new(128, 128, [4e-6; 2], (0..128 * 128).map(mean).collect()).unwrap();
+        let [(seen, _), (whole, _)] =
+            [&coarse.with_periodic(true), &fine.map].map(|map| SlopePower::new(map).unwrap());
+        let true_growth = (whole.filtered(None)[0] / seen.filtered(None)[0]).ln();
+        let growth = seen.growth();
+        let [least, most] = [growth.least, growth.most].map(|octaves| octaves.iter().sum::<f64>());
+        // half a percent of the slope: bands of the spectrum do not end where octaves do
+        assert!(least - 0.005 <= true_growth && true_growth <= most + 0.005, "{true_growth} {growth:?}");
+        growth.goes_on()
+    };
+    for hurst in [0.3, 0.5, 0.8] {
+        assert!(grown(hurst, 2.0, true) && grown(hurst, 2.0, false));
+        assert!(!grown(hurst, 20.0, true) && !grown(hurst, 20.0, false));
+    }
 }

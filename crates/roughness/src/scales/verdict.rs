@@ -3,20 +3,25 @@
 //! Let t = ln h' be the logarithm of the rms slope that is let in, and y that of the quantity. Over the
 //! finest octaves y changes by e = Δy/Δt of the slope's change: e keeps its value where the quantity follows
 //! the slope for ever (the elastic area, e = -1) and falls from octave to octave where longer waves decide.
-//! The spectrum says how t goes on below the pixel, and Σ e ρ^k Δt_k is what is still to come, ρ being the
-//! fall of e by an octave.
+//! The spectrum says between which bounds t goes on below the pixel, and Σ e ρ^k Δt_k is what is still to
+//! come, ρ being the fall of e by an octave.
 
 use super::numbers::Step;
 use super::slope_power::Growth;
 
-/// The change by two finer octaves that a quantity may have which counts as converged.
-const CONVERGED: f64 = 0.1;
+/// The change by two finer octaves that a quantity may have which counts as converged, and where the spectrum
+/// has ended.
+const CONVERGED: f64 = 0.15;
+const CONVERGED_AT_END: f64 = 0.2;
 /// Fall of e by an octave from which on it counts as steady.
-const STEADY: f64 = 0.75;
-/// Change by an octave below which a steady one is no matter.
-const SMALL: f64 = 0.01;
-/// Times that what is to come may be off.
+const STEADY: f64 = 0.7;
+/// Times that what is to come may be off, and that e may fall by.
 const DOUBT: f64 = 1.5;
+const LEAST_FALL: f64 = 0.5;
+/// Share of the change by the finest octave that may come once more, and of it that may go back: waves of two
+/// to four pixels are seen by half.
+const HALF_SEEN: f64 = 0.5;
+const BACK: f64 = 0.25;
 /// Error by the pixels beyond which a map says nothing of a quantity.
 const LARGEST_ERROR: f64 = 0.5;
 /// Octaves from the pixel up that a verdict is made of.
@@ -61,6 +66,8 @@ pub struct Verdict {
     /// Relative bound of what two finer octaves change of the last value, or of the extrapolated one where it
     /// is converging; None where it is not, or where nothing is known.
     pub error: Option<f64>,
+    /// The values between which two finer octaves leave it; None where nothing is known.
+    pub range: Option<[f64; 2]>,
     /// log2 of the factor by which an octave of finer waves changes it, of the last octave or of the next.
     pub exponent: Option<f64>,
     /// The value on the whole map.
@@ -119,6 +126,7 @@ impl Octaves {
             class: Class::MapTooSmall,
             from: None,
             error: None,
+            range: None,
             exponent: None,
             value,
             extrapolated: None,
@@ -141,40 +149,45 @@ impl Octaves {
     }
 
     fn judge(&self, value: f64, steps: &Steps, series: &Series) -> Verdict {
-        let (follows, fall) = (steps.follows(), steps.fall());
-        let come = |fall: f64| {
-            let octaves = (1..).zip(self.growth.octaves);
-            octaves.map(|(k, growth)| follows * fall.powi(k) * growth).sum::<f64>()
+        let (fall, noise, goes_on) = (steps.fall(), series.error, self.growth.goes_on());
+        let come = |times: f64, fall: f64, growth: [f64; 2]| {
+            times * (1..).zip(growth).map(|(k, growth)| steps.follows() * fall.powi(k) * growth).sum::<f64>()
         };
-        // what is still possible
         let [least, most] = series.range.map(|end| (end / value).ln());
         let possible = |change: f64| change.max(least.min(0.0)).min(most.max(0.0));
-        let expected = possible(come(fall));
-        let worst = possible(come(fall.max(steps.steepest_fall()).min(1.0)));
-        let noise = series.error;
-        let next = possible(follows * fall * self.growth.octaves[0]);
-        let steady = self.growth.goes_on && fall >= STEADY && next.abs() > SMALL;
-        let bound = expected.abs().max(worst.abs()) * DOUBT;
-        let error = bound.exp_m1().hypot(noise);
-        let ends = expected <= least || expected >= most;
-        let verdict = |class, error, extrapolated| Verdict {
-            class,
+        let expected = come(1.0, fall, self.growth.expected);
+        // finer waves without end change what no longer ones decide, and no limit
+        let steady = goes_on && fall >= STEADY && !series.of_long_waves;
+        let steady = steady && expected > least && expected < most;
+        let expected = possible(expected);
+        let ends = [
+            come(1.0, LEAST_FALL * fall, self.growth.least),
+            come(DOUBT, fall.max(steps.steepest_fall()).min(1.0), self.growth.most),
+            expected,
+        ];
+        let (more, back) = (HALF_SEEN * steps.y[0], -BACK * HALF_SEEN * steps.y[0]);
+        let low = possible(ends.into_iter().fold(f64::INFINITY, f64::min) + more.min(back));
+        let high = possible(ends.into_iter().fold(f64::NEG_INFINITY, f64::max) + more.max(back));
+        let bound = high.max(-low).exp_m1();
+        let [low, high] = [low - noise.ln_1p(), high + noise.ln_1p()];
+        let found = Verdict {
+            class: Class::Converged,
             from: None,
-            error,
-            exponent: Some(next / std::f64::consts::LN_2),
+            error: Some(bound.hypot(noise)),
+            range: Some([low, high].map(|change| value * change.exp())),
+            exponent: Some(
+                possible(steps.follows() * fall * self.growth.expected[0]) / std::f64::consts::LN_2,
+            ),
             value,
-            extrapolated,
+            extrapolated: Some(value * expected.exp()),
         };
-        if bound.exp_m1() <= CONVERGED {
-            verdict(Class::Converged, Some(error), Some(value * expected.exp()))
-        } else if steady && !ends {
-            verdict(Class::NotConverging, None, Some(value * expected.exp()))
-        } else if !self.growth.goes_on {
-            // nothing is to come; what is left are the pixels
-            verdict(Class::Converged, Some(error), Some(value))
+        if bound <= if goes_on { CONVERGED } else { CONVERGED_AT_END } {
+            found
+        } else if steady && expected.abs() > CONVERGED {
+            Verdict { class: Class::NotConverging, error: None, ..found }
         } else {
-            let left = (DOUBT * worst - expected).abs().max(expected.abs());
-            verdict(Class::Converging, Some(left.exp_m1().hypot(noise)), Some(value * expected.exp()))
+            let left = (high - expected).exp_m1().max(-(low - expected).exp_m1());
+            Verdict { class: Class::Converging, error: Some(left), ..found }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Scales of generated surfaces beside what is known of them: slopes beside a quadrature over the generator's
 //! spectrum, fitted spectra, mean pressures over E* h', Persson's theory, and verdicts beside two finer
-//! octaves.
+//! octaves and beside half the map.
 //!
 //! `cargo run --release -p asperity-verification --example scales [-- --out FILE]` (some
 //! minutes of one core); the tables are `verification/results/scales.md`.
@@ -8,12 +8,14 @@
 // on surfaces made here
 #![allow(clippy::expect_used)]
 
+mod halved;
+mod verdicts;
+
 use asperity_material::HardeningLaw;
 use asperity_material::units::Stress;
 use asperity_roughness::half_space::{HalfSpace, PressureLimit};
 use asperity_roughness::scales::{
-    By, Class, Numbers, Quantity, Scale, Scales, SelfAffine, SlopePower, Slopes, Task, Verdict, cutoffs,
-    persson, press_scale,
+    Scale, Scales, SelfAffine, SlopePower, Slopes, Task, cutoffs, persson, press_scale,
 };
 use asperity_roughness::{Grid, HeightMap, Kind, Load, Material, Surface, Target, generate};
 use asperity_solver::point::material::Metal;
@@ -29,14 +31,8 @@ const REDUCED: f64 = 210e9 / 0.91;
 const GRADIENT: f64 = 0.1;
 /// Maps of each kind in the tables of fits and verdicts.
 const MAPS: u64 = 30;
-/// Points of the fine maps along a side, and those of the coarse ones in a fine pixel along a side.
+/// Points of the larger maps along a side.
 const FINE: usize = 512;
-const COARSENED: usize = 4;
-/// Change by two finer octaves up to which a quantity counts as one that converges.
-const CONVERGES: f64 = 0.05;
-/// It does not converge where the second of them changes it by more than that, and by this share of what the
-/// first does, or more.
-const STEADY: f64 = 0.8;
 
 fn made(side: usize, hurst: f64, [rolloff, cutoff]: [f64; 2], seed: u64) -> Surface {
     let grid = Grid { nodes: [side; 2], pixel: [1e-6; 2], seed };
@@ -121,7 +117,7 @@ fn fits(report: &mut Report) {
             let (hurst, rolloff, shortest) =
                 (0.3 + 0.6 * share, 32.0 + 32.0 * (7.0 * share).fract(), 2.0 + seed as f64 % 5.0);
             let surface = made(if free { 512 } else { 256 }, hurst, [rolloff, shortest], seed);
-            let map = if free { quarter(&surface.map) } else { surface.map };
+            let map = if free { first_half(&surface.map) } else { surface.map };
             let (_, points) = SlopePower::new(&map).expect("heights");
             let fit = SelfAffine::new(&map, &points).expect("many bands");
             for (k, (found, known)) in
@@ -142,8 +138,8 @@ fn fits(report: &mut Report) {
     }
 }
 
-/// The first quarter of a map, levelled.
-fn quarter(map: &HeightMap) -> HeightMap {
+/// The first quarter of a map, of half its sides, levelled.
+fn first_half(map: &HeightMap) -> HeightMap {
     let n = map.columns() / 2;
     let heights = (0..n).flat_map(|y| map.row(y)[..n].to_vec()).collect();
     let cut = HeightMap::new(n, n, map.pixel(), heights).expect("a quarter of a map");
@@ -153,21 +149,20 @@ fn quarter(map: &HeightMap) -> HeightMap {
 fn pressures(report: &mut Report) {
     report.section("Elastic mean pressure over E* h'");
     report.line(
-        "κ = E* h' A/(p A₀) by scale, the area corrected for pixels, of periodic maps of 512² (roll-off 64 µm, shortest wave 4 µm) at a load that \
-         leaves 4 % of the whole map in contact.\n",
+        "κ = E* h' A/(p A₀) by scale, the area corrected for pixels, of periodic maps of 512² (roll-off 64 µm, shortest wave 4 µm), each scale at a load \
+         of 0.02 E* h' of its own, which leaves 4 to 5 % in contact at every scale; in brackets the contact, %.\n",
     );
     report.table("| Hurst exponent | 45 µm | 23 µm | 11 µm | 5.7 µm | whole |");
     for hurst in [0.3, 0.5, 0.8] {
         let surface = made(FINE, hurst, [64.0, 4.0], 1);
-        let pressure = 0.02 * REDUCED * surface.parameters.rms_gradient;
-        let found = follow(&task(800e6), &surface, pressure);
+        let (power, _) = SlopePower::new(&surface.map).expect("heights");
         let cell = |cutoff: f64| {
-            let near =
-                |step: &asperity_roughness::scales::Step| (step.cutoff * 1e6 / cutoff - 1.0).abs() < 0.05;
-            let one = found.contacts(By::Elastic).find(|(step, _)| near(step));
-            let kappa =
-                one.and_then(|(step, one)| Some(REDUCED * step.slopes.rms * one.area?.corrected / pressure));
-            kappa.map_or("–".into(), |kappa| format!("{kappa:.2}"))
+            let scale = Scale::new(&surface, cutoff * 1e-6).expect("a cut-off of the map");
+            let stress = REDUCED * Slopes::new(&scale, &surface.map, &power).rms;
+            let pressure = 0.02 * stress;
+            let found = press_scale(&task(800e6).body, &scale.surface, pressure, None, None);
+            let area = found.expect("the load is carried").0.area.corrected;
+            format!("{:.2} ({:.1})", stress * area / pressure, 1e2 * area)
         };
         let cells = [45.25, 22.63, 11.31, 5.657, 2.0].map(cell);
         report.line(&format!("| {hurst} | {} |", cells.join(" | ")));
@@ -203,127 +198,6 @@ fn theory(report: &mut Report) {
             };
             let cells = [32.0, 16.0, 8.0, 2.0].map(|c: f64| cell(if c > 2.0 { c } else { 2.0 }));
             report.line(&format!("| {limit} | {load} | {} |", cells.join(" | ")));
-        }
-    }
-}
-
-/// A map as an instrument of pixels so many times wider sees it: their means, or single points of it.
-fn coarsened(map: &HeightMap, times: usize, means: bool) -> Surface {
-    let n = map.columns() / times;
-    let side = if means { times } else { 1 };
-    let height = |i: usize| {
-        let [x, y] = [i % n, i / n].map(|k| k * times);
-        let sum: f64 = (y..y + side).flat_map(|y| &map.row(y)[x..x + side]).sum();
-        sum / (side * side) as f64
-    };
-    let pixel = map.pixel().map(|p| p * times as f64);
-    let coarse = HeightMap::new(n, n, pixel, (0..n * n).map(height).collect()).expect("a coarser map");
-    Surface::from_map(coarse.with_periodic(true)).expect("a map of many cells")
-}
-
-/// Counts of verdicts: said, and true.
-#[derive(Clone, Copy, Default)]
-struct Count {
-    said: usize,
-    right: usize,
-}
-
-impl Count {
-    fn add(&mut self, right: bool) {
-        self.said += 1;
-        self.right += usize::from(right);
-    }
-
-    fn cell(&self) -> String {
-        match self.said {
-            0 => "–".into(),
-            said => format!("{} of {said}, {:.0} %", self.right, 1e2 * self.right as f64 / said as f64),
-        }
-    }
-}
-
-/// The verdicts on one kind of map.
-#[derive(Clone, Copy, Default)]
-struct Tally {
-    /// Converged, converging, not converging: the change is inside the error; that it is above the limit.
-    statements: [Count; 3],
-    /// Those that converge: converged said; those that do not: not converging said, or still converging.
-    recall: [Count; 2],
-    small: usize,
-}
-
-impl Tally {
-    fn add(&mut self, quantity: Quantity, octaves: &[Numbers; 2], verdict: &Verdict) {
-        let of = |found: &Numbers| quantity.value(found).filter(|value| *value > 0.0);
-        let [Some(middle), Some(truth)] = octaves.each_ref().map(of) else { return };
-        let steps = [(middle / verdict.value).ln().abs(), (truth / middle).ln().abs()];
-        let change = (truth / verdict.value - 1.0).abs();
-        let error = verdict.error.unwrap_or(0.0);
-        match verdict.class {
-            Class::Converged => self.statements[0].add(change <= error),
-            Class::Converging => {
-                let end = verdict.extrapolated.unwrap_or(f64::NAN);
-                self.statements[1].add((truth / end - 1.0).abs() <= error);
-            }
-            Class::NotConverging => self.statements[2].add(change > CONVERGES),
-            Class::MapTooSmall => self.small += 1,
-        }
-        if verdict.class == Class::MapTooSmall {
-            return;
-        }
-        if change <= CONVERGES {
-            self.recall[0].add(verdict.class == Class::Converged);
-        } else if steps[1] > CONVERGES && steps[1] >= STEADY * steps[0] {
-            self.recall[1].add(verdict.class == Class::NotConverging);
-        }
-    }
-}
-
-fn judged(report: &mut Report) {
-    report.section("Verdicts beside two finer octaves");
-    report.line(&format!(
-        "Periodic maps of {FINE}² pressed whole, and as an instrument of pixels {COARSENED} times wider sees them, whose verdicts are held against \
-         that: {MAPS} band-limited ones (shortest wave 10 to 30 fine pixels, every fourth point), {MAPS} self-affine ones (to 2 fine pixels, \
-         means of 4 x 4); H 0.3 to 0.9, elastic contact of 1 to 10 %, metal from nearly elastic to nearly plastic. Seven quantities by the elastic \
-         and by the limited half-space. A quantity converges where two finer octaves change it by {:.0} % or less, and does not where the second of them changes it by more \
-         than that, and by at least {} of what the first does.\n",
-        1e2 * CONVERGES,
-        STEADY
-    ));
-    report.table(
-        "| maps | half-space | converged: true | converging: true | not converging: true | converged said of those that converge | not converging said of those that do not | map too small |",
-    );
-    for band_limited in [true, false] {
-        let mut tallies = [Tally::default(); 2];
-        for seed in 1..=MAPS {
-            let share = seed as f64 / MAPS as f64;
-            let hurst = 0.3 + 0.6 * (5.0 * share).fract();
-            let shortest = if band_limited { 10.0 + 20.0 * (3.0 * share).fract() } else { 2.0 };
-            let fine = made(FINE, hurst, [64.0 + 64.0 * (7.0 * share).fract(), shortest], seed);
-            let [coarse, middle] =
-                [COARSENED, COARSENED / 2].map(|times| coarsened(&fine.map, times, !band_limited));
-            let slope = REDUCED * coarse.parameters.rms_gradient;
-            let pressure = slope * 0.005 * 10f64.powf((11.0 * share).fract());
-            let task = task(slope * 0.03 * 10f64.powf((13.0 * share).fract()));
-            let found = follow(&task, &coarse, pressure);
-            for (limited, tally) in [false, true].into_iter().zip(&mut tallies) {
-                let by = if limited { By::Limited } else { By::Elastic };
-                let Some((_, last)) = found.contacts(by).last() else { continue };
-                let body = HalfSpace { limit: last.limit, ..task.body };
-                let truth = [&middle, &fine].map(|surface| {
-                    let found = press_scale(&body, surface, pressure, None, None);
-                    Numbers::from(&found.expect("the load is carried").0)
-                });
-                for judged in found.verdicts.iter().filter(|j| j.limited == limited) {
-                    tally.add(judged.quantity, &truth, &judged.verdict);
-                }
-            }
-        }
-        for (name, tally) in ["elastic", "limited"].into_iter().zip(tallies) {
-            let kind = if band_limited { "band-limited" } else { "self-affine" };
-            let statements = tally.statements.map(|count| count.cell()).join(" | ");
-            let recall = tally.recall.map(|count| count.cell()).join(" | ");
-            report.line(&format!("| {kind} | {name} | {statements} | {recall} | {} |", tally.small));
         }
     }
 }
@@ -452,13 +326,14 @@ type Part = fn(&mut Report);
 
 fn main() -> std::io::Result<()> {
     let (mut report, rest) = Report::of_example("scales", "half_space.tolerance = 1e-6");
-    let parts: [(&str, Part); 7] = [
+    let parts: [(&str, Part); 8] = [
         ("slopes", slopes),
         ("fits", fits),
         ("pressures", pressures),
         ("theory", theory),
         ("waves", waves),
-        ("verdicts", judged),
+        ("verdicts", verdicts::judged),
+        ("halved", halved::judged),
         ("cost", cost),
     ];
     for (name, part) in parts {
