@@ -24,6 +24,8 @@ const REDUCED: f64 = 100e9;
 const GRADIENT: f64 = 0.15;
 /// Cut-offs of what is left out, in µm.
 const CUTOFFS: [f64; 5] = [12.0, 16.0, 24.0, 32.0, 48.0];
+/// p/H of the correlation.
+const SHARES: [f64; 4] = [1e-3, 3e-3, 1e-2, 5e-2];
 /// Maps of the bounds.
 const BOUNDED_MAPS: u64 = 20;
 
@@ -54,11 +56,14 @@ fn profile_slope(map: &HeightMap) -> f64 {
     0.5 * steps.sum::<f64>() / (nx * ny) as f64 / map.pixel()[0]
 }
 
-/// Cooper, Mikic and Yovanovich 1969: h/k = 1.25 m/σ (p/H)^0.95 of Gaussian surfaces whose spots flow, beside
-/// maps of `side` points.
+/// h/k = 1.25 m/σ (p/H)^0.95 of Gaussian surfaces whose spots flow (Cooper, Mikic and Yovanovich 1969).
+fn known_conductance(surface: &Surface, share: f64) -> f64 {
+    1.25 * profile_slope(&surface.map) / surface.parameters.sq * share.powf(0.95)
+}
+
+/// That correlation beside maps of `side` points.
 fn correlation_on(report: &mut Report, side: usize, maps: &[(f64, [f64; 2])]) {
     const HARDNESS: f64 = 1e9;
-    const SHARES: [f64; 4] = [1e-3, 3e-3, 1e-2, 5e-2];
     report.section("Conductance over that of Cooper, Mikic and Yovanovich");
     report.line(&format!(
         "Periodic maps of {side}², E* = {} GPa, a limit of 1 GPa, mean gradient {GRADIENT}; by p/H.\n",
@@ -68,11 +73,9 @@ fn correlation_on(report: &mut Report, side: usize, maps: &[(f64, [f64; 2])]) {
     for (hurst, lengths) in maps {
         let surface = made(side, *hurst, *lengths, 1);
         let path = pressed(&surface, Some(HARDNESS), &SHARES.map(|share| share * HARDNESS));
-        let slope = profile_slope(&surface.map);
         let cells = SHARES.iter().zip(&path.loading[1..]).map(|(share, point)| {
-            let known = 1.25 * slope / surface.parameters.sq * share.powf(0.95);
             let found = point.elastic.map_or(f64::NAN, |s| s.gap / REDUCED);
-            format!("{:.3}", found / known)
+            format!("{:.3}", found / known_conductance(&surface, *share))
         });
         let cells: Vec<String> = cells.collect();
         let [rolloff, cutoff] = lengths;
@@ -94,6 +97,54 @@ fn correlation(report: &mut Report) {
 /// The same on maps of more roll-offs to a side, whose summits are more like those of an endless surface.
 fn wide(report: &mut Report) {
     correlation_on(report, 2 * SIDE, &[(0.8, [32.0, 8.0]), (0.3, [32.0, 8.0]), (0.8, [64.0, 8.0])]);
+}
+
+/// The same of the parts of maps above a plane, which are the spots that the correlation stands for: no
+/// contact is pressed, and the conductance is that of the stiffness of these pixels.
+fn cut(report: &mut Report) {
+    report.section("Conductance of the parts above a plane over that of Cooper, Mikic and Yovanovich");
+    report.line(
+        "Pixels of periodic maps that are the highest p/H of the area, as spots: no contact mechanics. Mean and standard deviation over seeds, by p/H.\n",
+    );
+    report.table("| map | Hurst exponent | roll-off, µm | cut-off, µm | seeds | 1e-3 | 3e-3 | 1e-2 | 5e-2 |");
+    let maps = [
+        (512, 0.8, [32.0, 8.0], 6),
+        (1024, 0.8, [64.0, 16.0], 3),
+        (512, 0.8, [32.0, 28.0], 6),
+        (512, 0.3, [32.0, 8.0], 6),
+    ];
+    for (side, hurst, lengths, seeds) in maps {
+        let found: Vec<[f64; 4]> =
+            (1..=seeds).map(|seed| ratios_of_cut(&made(side, hurst, lengths, seed))).collect();
+        let cells: Vec<String> = (0..SHARES.len())
+            .map(|k| {
+                let mean = found.iter().map(|of| of[k]).sum::<f64>() / seeds as f64;
+                let squares = found.iter().map(|of| (of[k] - mean).powi(2)).sum::<f64>();
+                format!("{mean:.3} ± {:.3}", (squares / (seeds - 1) as f64).sqrt())
+            })
+            .collect();
+        let [rolloff, cutoff] = lengths;
+        let cells = cells.join(" | ");
+        report.line(&format!("| {side}² | {hurst} | {rolloff} | {cutoff} | {seeds} | {cells} |"));
+    }
+}
+
+/// h/k of the highest pixels of `surface` over the correlation, at each of [`SHARES`] of the area.
+fn ratios_of_cut(surface: &Surface) -> [f64; 4] {
+    let body = HalfSpace { reduced_modulus: REDUCED, limit: None, tolerance: 1e-6 };
+    let touch = body.press(surface, Load::Pressure(0.0)).expect("nothing is pressed");
+    let heights = surface.map.heights();
+    let mut sorted = heights.to_vec();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    SHARES.map(|share| {
+        let plane = sorted[(share * sorted.len() as f64) as usize];
+        let mut spots = touch.clone();
+        spots.pressures = heights.iter().map(|z| if *z > plane { 1.0 } else { 0.0 }).collect();
+        // the stiffness of pixels at their limit is asked for by this
+        spots.limited_share = 1.0;
+        let stiffness = body.elastic_stiffness(surface, &spots).map_or(f64::NAN, |s| s.gap);
+        stiffness / REDUCED / known_conductance(surface, share)
+    })
 }
 
 /// Energy and power of elastic maps, over three decades to 0.05 E* h'.
@@ -286,10 +337,11 @@ type Part = fn(&mut Report);
 
 fn main() -> std::io::Result<()> {
     let (mut report, rest) = Report::of_example("joint", "half_space.tolerance = 1e-6");
-    let parts: [(&str, Part); 6] = [
+    let parts: [(&str, Part); 7] = [
         ("potential", potential),
         ("correlation", correlation),
         ("wide", wide),
+        ("cut", cut),
         ("elastic", elastic),
         ("bounds", bounded),
         ("cost", cost),
