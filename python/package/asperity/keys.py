@@ -357,7 +357,9 @@ class HalfSpaceTable(TypedDict, total=False):
     """
 
     tolerance: float
-    """Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default."""
+    """Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default; the
+    loads of a joint are found to ten times it.
+    """
 
 
 class JointTable(TypedDict, total=False):

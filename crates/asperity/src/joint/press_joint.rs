@@ -179,6 +179,7 @@ fn flow(passages: &[Passage; 2], flows: bool) -> Flow {
     let known = |passage: Passage| passage.leak.map(|leak| leak.error).filter(|error| error.is_finite());
     Flow {
         critical_gaps: passages.map(|passage| passage.narrowest.map(|place| place.gap)),
+        critical_widths: passages.map(|passage| passage.narrowest.map(|place| place.width)),
         leaks: passages.map(|passage| passage.conductance(flows)),
         errors: passages.map(known),
     }

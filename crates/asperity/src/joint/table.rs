@@ -104,5 +104,9 @@ row! {
         flow_x_mbar_l_per_s: Option<f64> = seal.flow(flow.leaks[0], 0, true),
         /// The same along y.
         flow_y_mbar_l_per_s: Option<f64> = seal.flow(flow.leaks[1], 1, true),
+        /// Width of the critical constriction along x, from wall to wall, µm: the shortest open stretch through its pixel.
+        critical_width_x_um: Option<f64> = flow.critical_widths[0].map(|width| width / MICROMETRE),
+        /// The same along y.
+        critical_width_y_um: Option<f64> = flow.critical_widths[1].map(|width| width / MICROMETRE),
     }
 }

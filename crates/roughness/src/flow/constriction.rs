@@ -3,11 +3,14 @@
 use super::gap::{Axis, Gap};
 use std::collections::BinaryHeap;
 
-/// The critical constriction: all of a flow must pass a gap no wider than this one.
+/// The critical constriction: all of a flow must pass a gap no higher than this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constriction {
     /// Its gap, in metres.
     pub gap: f64,
+    /// Its width, in metres: of the open stretches through its pixel along x, along y and both diagonals the
+    /// shortest, which is the one from wall to wall.
+    pub width: f64,
     /// Its pixel along x and y.
     pub at: [usize; 2],
 }
@@ -35,7 +38,7 @@ pub fn constriction(gap: &Gap, axis: Axis) -> Option<Constriction> {
         if along + 1 == map.long {
             let i = place(narrowest);
             let at = [i % gap.nodes[0], i / gap.nodes[0]];
-            return Some(Constriction { gap: f64::from(gap.values[i]), at });
+            return Some(Constriction { gap: f64::from(gap.values[i]), width: width(gap, at), at });
         }
         // the last one is looked at first: ahead
         for j in map.neighbours(along, line).into_iter().flatten() {
@@ -49,6 +52,27 @@ pub fn constriction(gap: &Gap, axis: Axis) -> Option<Constriction> {
             }
         }
     }
+}
+
+/// The shortest straight open stretch through the pixel `at`, in metres; it ends at walls, at points without
+/// a height and at the edges of a map that does not repeat.
+fn width(gap: &Gap, at: [usize; 2]) -> f64 {
+    let nodes = gap.nodes.map(|n| n as i64);
+    let open = |step: [i64; 2], k: i64| {
+        let to = [0, 1].map(|axis| at[axis] as i64 + k * step[axis]);
+        let inside = gap.periodic || (0..2).all(|axis| (0..nodes[axis]).contains(&to[axis]));
+        let [x, y] = [0, 1].map(|axis| to[axis].rem_euclid(nodes[axis]) as usize);
+        inside && gap.values[y * gap.nodes[0] + x] > 0.0
+    };
+    let stretch = |step: [i64; 2]| {
+        // around a map that repeats at most once
+        let most = nodes[0].max(nodes[1]);
+        let ahead = (1..most).take_while(|k| open(step, *k)).count();
+        let behind = (1..most - ahead as i64).take_while(|k| open(step, -k)).count();
+        let length = (step[0] as f64 * gap.pixel[0]).hypot(step[1] as f64 * gap.pixel[1]);
+        (1 + ahead + behind) as f64 * length
+    };
+    [[1, 0], [0, 1], [1, 1], [1, -1]].map(stretch).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// The pixel of a [`Lines::width`].

@@ -54,6 +54,12 @@ fn a_wall_is_tight_and_a_hole_in_it_is_the_constriction() {
     let holed = gap([20, 12], false, &holed);
     let narrowest = constriction(&holed, Axis::X).unwrap();
     assert_eq!((narrowest.at, narrowest.gap), ([7, 5], f64::from(2e-7f32)));
+    // one pixel from wall to wall, however long along the flow; a slot of three of them has three
+    assert!((narrowest.width / 0.5e-6 - 1.0).abs() < 1e-12, "{narrowest:?}");
+    let mut slot = values.clone();
+    (4..7).for_each(|row| slot[row * 20 + 7] = if row == 5 { 2e-7 } else { 1e-7 });
+    let slot = gap([20, 12], false, &slot);
+    assert!((constriction(&slot, Axis::X).unwrap().width / 1.5e-6 - 1.0).abs() < 1e-12);
     // diagonal neighbours do not join
     let corner: Vec<f32> = vec![1e-6, 0.0, 0.0, 1e-6];
     assert!(constriction(&gap([2, 2], false, &corner), Axis::X).is_none());
@@ -103,7 +109,7 @@ fn no_path_is_wider_than_the_constriction() {
             let widest = (1..6).rev().map(|k| k as f32).find(|least| crosses(&map, axis, *least));
             let found = constriction(&map, axis);
             assert_eq!(found.map(|c| c.gap as f32), widest, "{map:?} {axis:?}");
-            if let Some(Constriction { at: [x, y], gap }) = found {
+            if let Some(Constriction { at: [x, y], gap, .. }) = found {
                 assert_eq!(f64::from(values[y * nodes[0] + x]), gap);
             }
         }

@@ -49,7 +49,8 @@ pub struct JointPoint {
     /// Work stored in the body since first touch, in J.
     pub elastic_work: f64,
     /// Relative error of the elastic stiffness by the pixels: what it jumps by as rims go from pixel to
-    /// pixel, or half of the relative error of the area, the most of this load and its neighbours.
+    /// pixel, half of the relative error of the area, or what another slope gives; the most of this load and
+    /// its neighbours.
     pub error: Option<f64>,
     /// Two relative standard deviations of the elastic stiffness between maps of the same surface: what
     /// another map may differ by. None of one map.
@@ -73,6 +74,17 @@ pub struct JointPath {
 /// Chords of the law reach so far to both sides of a load, as a share of it: its rims move by pixels there,
 /// which the stiffness of a fixed set of pixels jumps with.
 const REACH: f64 = 0.1;
+/// Loads to each side that the slope of the law is taken over, where they are near and the contact is spots:
+/// it is within the error of the chord there, and needs no loads of its own.
+const NEIGHBOURS: usize = 2;
+/// A load is near below so many times the other.
+const NEAR_LOAD: f64 = 1.5;
+/// Share of the area in contact up to which the law bends so little.
+const SPOTS: f64 = 0.2;
+/// The loads are found to so many times the tolerance of a single contact, at most to the loosest: pixels
+/// leave the law a hundred times less sure, and single precision proves it.
+const LOOSER: f64 = 10.0;
+const LOOSEST: f64 = 1e-2;
 /// Share of the gap below which a chord that closes it is halved, so often at most: there the law bends too
 /// much for it.
 const LEAST_GAP: f64 = 0.25;
@@ -104,27 +116,33 @@ fn chord(
     Ok(closes.then(|| Stiffness { gap: load / gap, plane: load / plane }))
 }
 
-impl JointPoint {
+/// A load on the way, with what its errors are of.
+struct Step {
+    point: JointPoint,
+    /// Stiffness of the fixed set of pixels, elastic.
+    rims: Option<f64>,
+    /// True where the loads beside it give its stiffness.
+    inner: bool,
+}
+
+impl Step {
     fn new(
         body: &HalfSpace,
         surface: &Surface,
         found: &HalfSpaceContact,
         first_gap: f64,
-    ) -> Result<JointPoint, HalfSpaceError> {
+        inner: bool,
+    ) -> Result<Step, HalfSpaceError> {
         // without a stiffness nothing touches, or no gap is left
-        let loading = if found.stiffness.is_some() { chord(body, surface, found)? } else { None };
-        let elastic = match loading {
-            Some(_) if found.limited_share > 0.0 => {
-                let left = found.flattened_surface(surface);
-                chord(&HalfSpace { limit: None, ..*body }, left.as_ref().unwrap_or(surface), found)?
-            }
-            same => same,
+        let touches = found.stiffness.is_some() || inner;
+        let loading = if touches && !inner { chord(body, surface, found)? } else { None };
+        let elastic = if touches && found.limited_share > 0.0 {
+            let left = found.flattened_surface(surface);
+            chord(&HalfSpace { limit: None, ..*body }, left.as_ref().unwrap_or(surface), found)?
+        } else {
+            loading
         };
-        // of a spot the stiffness is as its radius: half of the error of the area
-        let of_area = (found.area.corrected > 0.0).then(|| 0.5 * found.area.error / found.area.corrected);
-        let of_rims = elastic.zip(body.elastic_stiffness(surface, found));
-        let of_rims = of_rims.map(|(chord, rims)| (rims.gap / chord.gap - 1.0).abs());
-        Ok(JointPoint {
+        let point = JointPoint {
             pressure: found.pressure,
             separation: found.separation,
             mean_gap: found.mean_gap,
@@ -135,11 +153,89 @@ impl JointPoint {
             stiffness: loading.map(|s| s.gap),
             elastic,
             elastic_work: found.elastic_work,
-            error: of_rims.zip(of_area).map(|(a, b)| a.max(b)),
+            error: None,
             repeatability: None,
-        })
+        };
+        let rims = body.elastic_stiffness(surface, found).map(|rims| rims.gap);
+        Ok(Step { point, rims, inner })
     }
+}
 
+/// The points of `steps` with the stiffnesses that the loads beside them give, and all errors.
+fn finished(steps: Vec<Step>) -> Vec<JointPoint> {
+    let mut points: Vec<JointPoint> = steps.iter().map(|step| step.point).collect();
+    for (i, step) in steps.iter().enumerate() {
+        let mut bend = 0.0;
+        if step.inner {
+            let slope = |reach| slope_over_load(&steps, i, reach);
+            let (wide, near) = (slope(2), slope(1));
+            points[i].stiffness = wide.map(|s| s.gap);
+            if step.point.limited_share == 0.0 {
+                points[i].elastic = wide;
+            }
+            bend = wide.zip(near).map_or(0.0, |(wide, near)| (near.gap / wide.gap - 1.0).abs());
+        }
+        let area = points[i].area;
+        // of a spot the stiffness is as its radius: half of the error of the area
+        let of_area = (area.corrected > 0.0).then(|| 0.5 * area.error / area.corrected);
+        let of_rims = points[i].elastic.zip(step.rims).map(|(found, rims)| (rims / found.gap - 1.0).abs());
+        let known = of_rims.or((step.inner && points[i].elastic.is_some()).then_some(bend));
+        points[i].error = known.zip(of_area).map(|(a, b)| a.max(b).max(bend));
+    }
+    let reach = |i: usize| if steps[i].inner { NEIGHBOURS } else { 1 };
+    let found: Vec<Option<f64>> = points.iter().map(|point| point.error).collect();
+    // rims may lie well at one load by chance
+    for (i, point) in points.iter_mut().enumerate() {
+        let near = &found[i.saturating_sub(reach(i))..(i + reach(i) + 1).min(found.len())];
+        point.error = found[i].and_then(|_| near.iter().flatten().copied().reduce(f64::max));
+    }
+    points
+}
+
+/// The stiffness at load `i` of `steps` by the polynomial in the logarithm of the load through the `reach`
+/// loads to both sides, or as many nearer the other end; None where it does not close there.
+fn slope_over_load(steps: &[Step], i: usize, reach: usize) -> Option<Stiffness> {
+    let first = steps.iter().position(|step| step.point.pressure > 0.0)?;
+    let start = i.saturating_sub(reach).max(first).min(steps.len().checked_sub(2 * reach + 1)?);
+    let near = start.max(first)..start + 2 * reach + 1;
+    let load = |k: usize| steps[k].point.pressure.ln();
+    // of Lagrange's polynomial that is 1 at load k, the slope at load i
+    let weight = |k: usize| {
+        let others = || near.clone().filter(move |m| *m != k);
+        let part = |m: usize| {
+            let rest = others().filter(|n| *n != m);
+            rest.map(|n| (load(i) - load(n)) / (load(k) - load(n))).product::<f64>() / (load(k) - load(m))
+        };
+        others().map(part).sum::<f64>()
+    };
+    let weights: Vec<(usize, f64)> = near.clone().map(|k| (k, weight(k))).collect();
+    let slope =
+        |of: &dyn Fn(&JointPoint) -> f64| -weights.iter().map(|(k, w)| w * of(&steps[*k].point)).sum::<f64>();
+    let (gap, plane) = (slope(&|point| point.mean_gap), slope(&|point| point.separation));
+    let pressure = steps[i].point.pressure;
+    (gap > 0.0 && plane > 0.0).then(|| Stiffness { gap: pressure / gap, plane: pressure / plane })
+}
+
+/// True where the loads beside `pressures[i]` are so near that the stiffness is the slope between them.
+fn lies_between(pressures: &[f64], i: usize) -> bool {
+    let last = pressures.len() - 1;
+    let near = &pressures[i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(pressures.len())];
+    (1..last).contains(&i)
+        && last >= 2 * NEIGHBOURS
+        && near.windows(2).all(|pair| pair[1] <= NEAR_LOAD * pair[0] && pair[0] < pair[1])
+}
+
+/// The contact `last` with its pressures extrapolated from those of `before`, to start from.
+fn extrapolated(last: &HalfSpaceContact, before: &HalfSpaceContact, pressure: f64) -> HalfSpaceContact {
+    let ahead = ((pressure - last.pressure) / (last.pressure - before.pressure)) as f32;
+    let mut start = last.clone();
+    for (p, old) in start.pressures.iter_mut().zip(&before.pressures) {
+        *p = (*p + ahead * (*p - old)).max(0.0);
+    }
+    start
+}
+
+impl JointPoint {
     /// Relative error of the elastic stiffness and of the conductances: pixels and repeatability together.
     pub fn whole_error(&self) -> Option<f64> {
         let parts = [self.error, self.repeatability];
@@ -160,28 +256,37 @@ pub fn follow(
 ) -> Result<JointPath, JointError> {
     let touch = body.press(surface, Load::Pressure(0.0))?;
     let first_gap = touch.mean_gap;
-    let mut path = JointPath {
-        loading: vec![JointPoint::new(body, surface, &touch, first_gap)?],
-        unloading: Vec::new(),
-        nominal_area: touch.nominal_area,
-        stopped: false,
-    };
-    let mut last: Option<HalfSpaceContact> = None;
-    for pressure in pressures {
-        let found = body.press_from(surface, Load::Pressure(*pressure), last.as_ref())?;
-        path.loading.push(JointPoint::new(body, surface, &found, first_gap)?);
-        let goes_on = visit(path.loading.len() - 1, &found)?;
-        last = Some(found);
-        if !goes_on {
-            path.stopped = true;
+    let body = &HalfSpace { tolerance: (LOOSER * body.tolerance).min(LOOSEST), ..*body };
+    let mut steps = vec![Step::new(body, surface, &touch, first_gap, false)?];
+    let (mut last, mut before): (Option<HalfSpaceContact>, Option<HalfSpaceContact>) = (None, None);
+    let mut stopped = false;
+    for (i, pressure) in pressures.iter().enumerate() {
+        let near = lies_between(pressures, i);
+        let rising = last.as_ref().zip(before.as_ref()).filter(|(a, b)| a.pressure > b.pressure);
+        let ahead = rising.map(|(a, b)| extrapolated(a, b, *pressure));
+        let (start, load) = (ahead.as_ref().or(last.as_ref()), Load::Pressure(*pressure));
+        let spots = last.as_ref().is_some_and(|last| NEAR_LOAD * last.area.ratio <= SPOTS);
+        let inner = near && spots;
+        // every other load has the errors of those beside it
+        let found = if inner && i % 2 == 1 {
+            body.press_without_stiffness(surface, load, start)?
+        } else {
+            body.press_from(surface, load, start)?
+        };
+        steps.push(Step::new(body, surface, &found, first_gap, inner)?);
+        stopped = !visit(steps.len() - 1, &found)?;
+        before = last.replace(found);
+        if stopped {
             break;
         }
     }
-    take_worst_of_neighbours(&mut path.loading);
-    if let Some(peak) = last.filter(|_| !path.stopped) {
-        path.unloading = way_back(body, surface, &path.loading, &peak)?;
-    }
-    Ok(path)
+    drop(before);
+    let loading = finished(steps);
+    let unloading = match last.filter(|_| !stopped) {
+        Some(peak) => way_back(body, surface, &loading, &peak)?,
+        None => Vec::new(),
+    };
+    Ok(JointPath { loading, unloading, nominal_area: touch.nominal_area, stopped })
 }
 
 /// The elastic unloading from `peak`.
@@ -200,27 +305,16 @@ fn way_back(
     let left = left.as_ref().unwrap_or(surface);
     // separations count from the mean of the surface as it was
     let shift = peak.flattened.iter().map(|f| f64::from(*f)).sum::<f64>() / peak.pixels as f64;
-    let mut points = Vec::new();
+    let mut steps: Vec<Step> = Vec::new();
     let mut last = peak.clone();
     for from in back.step_by(WAY_BACK_STRIDE).chain(loading.first()) {
-        if points.last().is_some_and(|one: &JointPoint| one.pressure <= from.pressure) {
+        if steps.last().is_some_and(|one| one.point.pressure <= from.pressure) {
             continue;
         }
         last = elastic.press_from(left, Load::Pressure(from.pressure), Some(&last))?;
-        let mut point = JointPoint::new(&elastic, left, &last, loading[0].mean_gap)?;
-        point.separation -= shift;
-        points.push(point);
+        let mut step = Step::new(&elastic, left, &last, loading[0].mean_gap, false)?;
+        step.point.separation -= shift;
+        steps.push(step);
     }
-    take_worst_of_neighbours(&mut points);
-    Ok(points)
-}
-
-/// Gives each of `points` the largest error of itself and its neighbours: rims may lie well at one load by
-/// chance.
-fn take_worst_of_neighbours(points: &mut [JointPoint]) {
-    let found: Vec<Option<f64>> = points.iter().map(|point| point.error).collect();
-    for (i, point) in points.iter_mut().enumerate() {
-        let near = &found[i.saturating_sub(1)..(i + 2).min(found.len())];
-        point.error = found[i].and_then(|_| near.iter().flatten().copied().reduce(f64::max));
-    }
+    Ok(finished(steps))
 }

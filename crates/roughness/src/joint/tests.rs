@@ -66,6 +66,24 @@ fn the_work_on_an_elastic_joint_is_the_energy_it_stores() {
     }
 }
 
+/// The slope of the law between loads is that of the chord of each load by itself, to the error that is
+/// stated of it, and on the mean to a quarter of that.
+#[test]
+fn the_loads_beside_give_the_stiffness_of_a_load_alone() {
+    let surface = Waves::drawn(16.0, 5).surface(128);
+    let pressures = loads(0.1 * REDUCED * surface.parameters.rms_gradient, 25);
+    let path = follow(&elastic(), &surface, &pressures, &mut |_, _| Ok(true)).unwrap();
+    let places = [6, 10, 14, 18, 22];
+    let off = places.map(|i| {
+        let alone = follow(&elastic(), &surface, &pressures[i - 1..i], &mut |_, _| Ok(true)).unwrap();
+        let (beside, chord) = (path.loading[i], alone.loading[1].elastic.unwrap().gap);
+        let off = (beside.elastic.unwrap().gap / chord - 1.0).abs() / beside.error.unwrap();
+        assert!(off < 1.0 && beside.error.unwrap() < 0.5, "{i}: {off} {beside:?}");
+        off
+    });
+    assert!(off.iter().sum::<f64>() < 0.25 * places.len() as f64, "{off:?}");
+}
+
 /// A sphere that stands free: dF/d(approach) = 2E*a (Johnson 1985, section 4.2), so that the conductance of
 /// its spot is 2ka (Holm 1967). The mean gap leaves out what the map sinks as a whole.
 #[test]

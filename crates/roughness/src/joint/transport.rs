@@ -8,6 +8,8 @@ use super::path::JointPoint;
 pub struct Flow {
     /// Gap of the critical constriction, in m; none where no path crosses.
     pub critical_gaps: [Option<f64>; 2],
+    /// Width of the critical constriction, in m; none where no path crosses.
+    pub critical_widths: [Option<f64>; 2],
     /// Volume flux times viscosity over pressure difference, in m³; none where it was not asked for.
     pub leaks: [Option<f64>; 2],
     /// Relative errors of the leaks.
@@ -24,6 +26,7 @@ impl Flow {
         };
         Flow {
             critical_gaps: [0, 1].map(|k| mean(&|flow| flow.critical_gaps[k])),
+            critical_widths: [0, 1].map(|k| mean(&|flow| flow.critical_widths[k])),
             leaks: [0, 1].map(|k| mean(&|flow| flow.leaks[k])),
             errors: [0, 1].map(|k| flows.clone().filter_map(|flow| flow.errors[k]).reduce(f64::max)),
         }
