@@ -17,7 +17,7 @@ const OCTAVE: f64 = 1.0 + 1e-9;
 
 fn generated(kind: Kind, seed: u64) -> Vec<f64> {
     let grid = Grid { nodes: [FINE; 2], pixel: [1e-6; 2], seed };
-    generate(kind, &grid, Target::Height(1e-6)).expect("the kind is in range").into_heights()
+    generate(kind, &grid, Target::Height(1e-6)).expect("the kind is in range").heights().to_vec()
 }
 
 /// A surface of the kind `name`, with the mean gradient 0.1.

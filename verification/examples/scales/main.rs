@@ -15,7 +15,7 @@ use asperity_material::HardeningLaw;
 use asperity_material::units::Stress;
 use asperity_roughness::half_space::{HalfSpace, PressureLimit};
 use asperity_roughness::scales::{
-    Scale, Scales, SelfAffine, SlopePower, Slopes, Task, cutoffs, persson, press_scale,
+    Numbers, Scale, Scales, SelfAffine, SlopePower, Slopes, Task, cutoffs, persson, press_scale,
 };
 use asperity_roughness::{Grid, HeightMap, Kind, Load, Material, Surface, Target, generate};
 use asperity_solver::point::material::Metal;
@@ -146,6 +146,11 @@ fn first_half(map: &HeightMap) -> HeightMap {
     asperity_roughness::level(cut, asperity_roughness::Levelling::Plane)
 }
 
+/// The area that has been corrected for pixels.
+fn corrected(found: &Numbers) -> f64 {
+    found.area.map_or(f64::NAN, |area| area.corrected)
+}
+
 fn pressures(report: &mut Report) {
     report.section("Elastic mean pressure over E* h'");
     report.line(
@@ -161,7 +166,7 @@ fn pressures(report: &mut Report) {
             let stress = REDUCED * Slopes::new(&scale, &surface.map, &power).rms;
             let pressure = 0.02 * stress;
             let found = press_scale(&task(800e6).body, &scale.surface, pressure, None, None);
-            let area = found.expect("the load is carried").0.area.corrected;
+            let area = corrected(&found.expect("the load is carried").0);
             format!("{:.2} ({:.1})", stress * area / pressure, 1e2 * area)
         };
         let cells = [45.25, 22.63, 11.31, 5.657, 2.0].map(cell);
@@ -194,7 +199,8 @@ fn theory(report: &mut Report) {
                     .expect("the load is carried");
                 let theory =
                     persson(slopes.rms, load * stress, REDUCED, body.limit).expect("below the limit");
-                format!("{:.2} ({:.1})", theory.total() / found.area.corrected, 1e2 * found.area.corrected)
+                let area = corrected(&found);
+                format!("{:.2} ({:.1})", theory.total() / area, 1e2 * area)
             };
             let cells = [32.0, 16.0, 8.0, 2.0].map(|c: f64| cell(if c > 2.0 { c } else { 2.0 }));
             report.line(&format!("| {limit} | {load} | {} |", cells.join(" | ")));
@@ -218,7 +224,7 @@ fn on_half_space(waves: &Waves, limit: Option<f64>, pressure: f64) -> Option<Wav
     let body = HalfSpace { reduced_modulus: 1.0 / 0.91, limit, tolerance: 1e-6 };
     let surface = Surface::from_map(map).ok()?;
     let found = press_scale(&body, &surface, pressure, None, None).ok()?.0;
-    Some(WaveContact { pressure, area: found.area.ratio, high_pressure: found.pressures?[1] })
+    Some(WaveContact { pressure, area: found.area_ratio?, high_pressure: found.pressures[1]? })
 }
 
 /// The limits of pressure over E of `waves`: at the mean slope of all of them, and at that of the patches.

@@ -123,7 +123,7 @@ pub fn judged(report: &mut Report) {
                 let body = HalfSpace { limit: last.limit, ..task.body };
                 let truth = [&middle, &fine].map(|surface| {
                     let found = press_scale(&body, surface, pressure, None, None);
-                    Numbers::from(&found.expect("the load is carried").0)
+                    found.expect("the load is carried").0
                 });
                 for judged in found.verdicts.iter().filter(|j| j.limited == limited) {
                     tally.add(judged.quantity, &truth, &judged.verdict);
