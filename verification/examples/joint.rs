@@ -181,8 +181,8 @@ fn elastic(report: &mut Report) {
 fn bounded(report: &mut Report) {
     report.section("Proven bounds of the stiffness, beside the whole maps");
     report.line(&format!(
-        "{BOUNDED_MAPS} elastic, periodic maps (Hurst exponent 0.8, roll-off 64 µm, cut-off 8 µm): the map without what a Gaussian filter takes \
-         off bounds the stiffness of the whole map, at 25 loads to 0.1 E* of the rms gradient. Width: upper over lower bound at half of \
+        "{BOUNDED_MAPS} elastic, periodic maps (Hurst exponent 0.8, roll-off 64 µm, cut-off 8 µm): the map without what a Gaussian filter subtracts \
+         bounds the stiffness of the whole map, at 25 loads to 0.1 E* of the rms gradient. Width: upper over lower bound at half of \
          the largest load.\n"
     ));
     report.table(
