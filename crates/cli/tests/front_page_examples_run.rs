@@ -52,8 +52,12 @@ fn the_commands_of_the_front_page_run() {
         let true_error = (of(&summary, key) - of(&finer, key)).abs() / of(&finer, over);
         let [stated, finer_stated] = [&summary, &finer].map(|s| s["errors"][error].as_f64().unwrap());
         assert!(true_error < stated + finer_stated, "{error}: {true_error} {stated} {finer_stated}");
-        // a constant would pass that: the bound falls with the accuracy
-        assert!(finer_stated > 0.0 && finer_stated < 0.7 * stated && stated < 0.05, "{error}: {stated}");
+        // a constant would pass that: the bound falls with the accuracy, that of the residual depth, which is
+        // not extrapolated, the least
+        assert!(
+            finer_stated > 0.0 && finer_stated < 0.8 * stated && stated < 0.05,
+            "{error}: {finer_stated} {stated}"
+        );
     }
 }
 
