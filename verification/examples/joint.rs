@@ -23,7 +23,7 @@ const REDUCED: f64 = 100e9;
 /// Mean gradient of all maps.
 const GRADIENT: f64 = 0.15;
 /// Cut-offs of what is left out, in µm.
-const CUTOFFS: [f64; 5] = [12.0, 16.0, 24.0, 32.0, 48.0];
+const CUTOFFS: [f64; 5] = [4.0, 6.0, 8.0, 12.0, 24.0];
 /// p/H of the correlation.
 const SHARES: [f64; 4] = [1e-3, 3e-3, 1e-2, 5e-2];
 /// Maps of the bounds.
