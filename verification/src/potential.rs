@@ -84,7 +84,7 @@ impl Grid {
         self.n * self.n * self.layers
     }
 
-    /// What joins layer `k` of a column to the one above it, or its first cell to the face.
+    /// The conductance that joins layer `k` of a column to the one above it, or its first cell to the face.
     fn up(&self, column: usize, k: usize) -> f64 {
         if k == 0 { self.face[column] } else { self.down[k - 1] }
     }
@@ -100,7 +100,7 @@ impl Grid {
         }
     }
 
-    /// What leaves the cells at the potential `t`, the base at 0.
+    /// The currents that leave the cells at the potential `t`, the base at 0.
     fn apply(&self, t: &[f64], out: &mut [f64]) {
         let mut near = vec![0.0; self.layers];
         for column in 0..self.n * self.n {

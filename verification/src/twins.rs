@@ -130,7 +130,7 @@ impl Cone {
     }
 }
 
-/// What may be unknown beside the metal of a twin; in truth both are 0.
+/// The numbers that may be unknown beside the metal of a twin; in truth both are 0.
 pub const NUISANCES: [&str; 2] = ["contact_depth", "machine_compliance"];
 
 /// A twin: a metal, its curve, and what is told of it.
@@ -205,7 +205,7 @@ impl Twin {
     }
 }
 
-/// What the fits of a twin showed.
+/// The outcome of the fits of a twin.
 #[derive(Clone, Copy, Debug)]
 pub struct Properties {
     /// True where the right model fits.

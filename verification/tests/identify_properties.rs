@@ -1,5 +1,5 @@
-//! What holds of `identify` whatever is sought beside the metal: an unknown more tells nothing, a better
-//! curve does not rule out the metal that it is of.
+//! Claim: whatever `identify` seeks beside the metal, an unknown more tells nothing, and a better curve
+//! does not rule out the metal that it is of.
 //!
 //! Source: logic alone. Twins are curves of cones by finite elements at `reference`, with noise, of which
 //! `results/reference-cones.md` holds the numbers. Of the many of `results/identify.md` a few are taken here.

@@ -19,7 +19,7 @@ use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What the report shows of `summary.json` of `asperity scales`.
+/// The part of `summary.json` of `asperity scales` that the report shows.
 #[derive(Clone, Debug, Deserialize)]
 pub struct ScalesSummary {
     /// Of the power spectrum.
