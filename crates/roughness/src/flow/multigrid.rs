@@ -11,15 +11,17 @@ const VISITS: usize = 2;
 #[derive(Clone, Debug)]
 pub(super) struct Network {
     pub long: usize,
-    pub wide: usize,
+    wide: usize,
     /// To the next cell of the line; 0 at its end.
-    pub ahead: Vec<f64>,
+    ahead: Vec<f64>,
     /// To the cell beside it on the next line; on the last line, to the first.
-    pub beside: Vec<f64>,
+    beside: Vec<f64>,
     /// To the ends, where the pressure is given.
     pub ends: Vec<f64>,
-    /// 1 over the sum of a cell's conductances; 0 of a closed cell.
-    pub inverse: Vec<f64>,
+    /// Sum of a cell's conductances.
+    sum: Vec<f64>,
+    /// 1 over that; 0 of a closed cell.
+    inverse: Vec<f64>,
 }
 
 impl Network {
@@ -36,52 +38,74 @@ impl Network {
                 sum[(i + long) % n] += beside[i];
             }
         }
-        let inverse = sum.into_iter().map(|s| if s > 0.0 { 1.0 / s } else { 0.0 }).collect();
-        Network { long, wide, ahead, beside, ends, inverse }
+        let inverse = sum.iter().map(|s| if *s > 0.0 { 1.0 / s } else { 0.0 }).collect();
+        Network { long, wide, ahead, beside, ends, sum, inverse }
     }
 
-    /// Σ g x over the neighbours of cell `i`.
-    #[inline]
-    fn inflow(&self, x: &[f64], i: usize, column: usize) -> f64 {
-        let n = x.len();
-        let below = if i >= self.long { i - self.long } else { n - self.long + i };
-        let above = if i + self.long < n { i + self.long } else { i + self.long - n };
-        let mut sum = self.beside[i] * x[above] + self.beside[below] * x[below];
-        if column > 0 {
-            sum += self.ahead[i - 1] * x[i - 1];
-        }
-        if column + 1 < self.long {
-            sum += self.ahead[i] * x[i + 1];
-        }
-        sum
+    /// What the lines beside `line` bring to its cells: Σ g x.
+    fn beside(&self, x: &[f64], line: usize, sum: &mut [f64]) {
+        let row = |line: usize| line * self.long..(line + 1) * self.long;
+        let (here, below) = (row(line), row((line + self.wide - 1) % self.wide));
+        let above = row((line + 1) % self.wide);
+        let terms =
+            self.beside[here].iter().zip(&x[above]).zip(self.beside[below.clone()].iter().zip(&x[below]));
+        sum.iter_mut().zip(terms).for_each(|(sum, ((a, xa), (b, xb)))| *sum = a * xa + b * xb);
     }
 
-    /// y = A x.
-    pub fn apply(&self, x: &[f64], y: &mut [f64]) {
-        for line in 0..self.wide {
-            for column in 0..self.long {
-                let i = line * self.long + column;
-                y[i] = if self.inverse[i] > 0.0 {
-                    x[i] / self.inverse[i] - self.inflow(x, i, column)
-                } else {
-                    0.0
-                };
+    /// y = A x; `sum` is room of a line.
+    pub fn apply(&self, x: &[f64], y: &mut [f64], sum: &mut [f64]) {
+        let long = self.long;
+        for (line, y) in y.chunks_exact_mut(long).enumerate() {
+            self.beside(x, line, sum);
+            let here = line * long..(line + 1) * long;
+            let (x, ahead, whole) = (&x[here.clone()], &self.ahead[here.clone()], &self.sum[here]);
+            for i in 0..long {
+                y[i] = whole[i] * x[i] - sum[i];
+            }
+            // the last cell of a line has nothing ahead
+            for i in 0..long - 1 {
+                y[i] -= ahead[i] * x[i + 1];
+                y[i + 1] -= ahead[i] * x[i];
             }
         }
     }
 
-    /// One sweep of Gauss and Seidel, forwards or backwards.
-    fn smooth(&self, b: &[f64], x: &mut [f64], backwards: bool) {
-        let mut relax = |i: usize, column: usize| {
-            if self.inverse[i] > 0.0 {
-                x[i] = (b[i] + self.inflow(x, i, column)) * self.inverse[i];
-            }
-        };
+    /// One sweep of Gauss and Seidel, forwards or backwards; `sum` is room of a line.
+    ///
+    /// All that does not depend on the cell before is summed first, many cells at once.
+    fn smooth(&self, b: &[f64], x: &mut [f64], backwards: bool, sum: &mut [f64]) {
+        let long = self.long;
         for step in 0..self.wide {
             let line = if backwards { self.wide - 1 - step } else { step };
-            for step in 0..self.long {
-                let column = if backwards { self.long - 1 - step } else { step };
-                relax(line * self.long + column, column);
+            self.beside(x, line, sum);
+            let here = line * long..(line + 1) * long;
+            let (x, b, ahead) = (&mut x[here.clone()], &b[here.clone()], &self.ahead[here.clone()]);
+            let inverse = &self.inverse[here];
+            let mut before = 0.0;
+            if backwards {
+                for i in 1..long {
+                    sum[i] += ahead[i - 1] * x[i - 1];
+                }
+                for i in 0..long {
+                    sum[i] = (sum[i] + b[i]) * inverse[i];
+                }
+                for i in (0..long).rev() {
+                    before = sum[i] + ahead[i] * inverse[i] * before;
+                    x[i] = before;
+                }
+            } else {
+                for i in 0..long - 1 {
+                    sum[i] += ahead[i] * x[i + 1];
+                }
+                for i in 0..long {
+                    sum[i] = (sum[i] + b[i]) * inverse[i];
+                }
+                let mut flow = 0.0;
+                for i in 0..long {
+                    before = sum[i] + flow * inverse[i] * before;
+                    x[i] = before;
+                    flow = ahead[i];
+                }
             }
         }
     }
@@ -114,8 +138,10 @@ impl Network {
 /// The grids from the finest to the coarsest.
 pub(super) struct Multigrid {
     pub levels: Vec<Network>,
-    /// Right-hand side, answer and residual of each coarse grid.
+    /// Right-hand side, answer and residual of each grid.
     rooms: Vec<[Vec<f64>; 3]>,
+    /// Room of a line.
+    line: Vec<f64>,
 }
 
 impl Multigrid {
@@ -124,54 +150,64 @@ impl Multigrid {
         while let Some(next) = levels.last().and_then(Network::coarser) {
             levels.push(next);
         }
-        // the finest grid works on what it is given
-        let room = |(k, level): (usize, &Network)| {
-            [(); 3].map(|()| vec![0.0; if k == 0 { 0 } else { level.ends.len() }])
-        };
-        Multigrid { rooms: levels.iter().enumerate().map(room).collect(), levels }
+        let room = |level: &Network| [(); 3].map(|()| vec![0.0; level.ends.len()]);
+        let line = vec![0.0; levels[0].long];
+        Multigrid { rooms: levels.iter().map(room).collect(), levels, line }
     }
 
-    /// x ≈ A⁻¹ b by one symmetric cycle; `r` is room of the same length.
-    pub fn cycle(&mut self, b: &[f64], x: &mut [f64], r: &mut [f64]) {
-        self.descend(0, b, x, r);
+    /// x ≈ A⁻¹ b by one symmetric cycle.
+    pub fn cycle(&mut self, b: &[f64], x: &mut [f64]) {
+        self.rooms[0][0].copy_from_slice(b);
+        self.descend(0);
+        x.copy_from_slice(&self.rooms[0][1]);
+    }
+
+    /// y = A x on the finest grid.
+    pub fn apply(&mut self, x: &[f64], y: &mut [f64]) {
+        self.levels[0].apply(x, y, &mut self.line);
     }
 
     /// A sweep forwards, corrections of the coarser grid, a sweep backwards.
-    fn descend(&mut self, level: usize, b: &[f64], x: &mut [f64], r: &mut [f64]) {
-        let network = &self.levels[level];
+    fn descend(&mut self, level: usize) {
+        let [b, mut x, mut r] = std::mem::take(&mut self.rooms[level]);
         x.fill(0.0);
-        network.smooth(b, x, false);
+        self.smooth(level, &b, &mut x, false);
         if level + 1 == self.levels.len() {
             for _ in 0..COARSEST_SWEEPS {
-                network.smooth(b, x, true);
-                network.smooth(b, x, false);
+                self.smooth(level, &b, &mut x, true);
+                self.smooth(level, &b, &mut x, false);
             }
-            network.smooth(b, x, true);
+            self.smooth(level, &b, &mut x, true);
+            self.rooms[level] = [b, x, r];
             return;
         }
-        let [mut coarse_b, mut coarse_x, mut coarse_r] = std::mem::take(&mut self.rooms[level + 1]);
+        let (long, coarse_long) = (self.levels[level].long, self.levels[level + 1].long);
         for visit in 0..VISITS {
-            let (network, coarser) = (&self.levels[level], &self.levels[level + 1]);
-            network.apply(x, r);
-            let (long, coarse_long) = (network.long, coarser.long);
+            self.levels[level].apply(&x, &mut r, &mut self.line[..long]);
+            let [coarse_b, ..] = &mut self.rooms[level + 1];
             coarse_b.fill(0.0);
             for (line, (r, b)) in r.chunks(long).zip(b.chunks(long)).enumerate() {
                 let to = &mut coarse_b[line / 2 * coarse_long..];
                 r.iter().zip(b).enumerate().for_each(|(column, (r, b))| to[column / 2] += b - r);
             }
-            self.descend(level + 1, &coarse_b, &mut coarse_x, &mut coarse_r);
-            let network = &self.levels[level];
+            self.descend(level + 1);
+            let [_, coarse_x, _] = &self.rooms[level + 1];
             for (line, x) in x.chunks_mut(long).enumerate() {
                 let from = &coarse_x[line / 2 * coarse_long..];
                 x.iter_mut().enumerate().for_each(|(column, x)| *x += from[column / 2]);
             }
             // what was forwards before a visit is backwards after it: the cycle is symmetric
-            network.smooth(b, x, true);
+            self.smooth(level, &b, &mut x, true);
             if visit + 1 < VISITS {
-                network.smooth(b, x, false);
+                self.smooth(level, &b, &mut x, false);
             }
         }
-        self.rooms[level + 1] = [coarse_b, coarse_x, coarse_r];
+        self.rooms[level] = [b, x, r];
+    }
+
+    fn smooth(&mut self, level: usize, b: &[f64], x: &mut [f64], backwards: bool) {
+        let network = &self.levels[level];
+        network.smooth(b, x, backwards, &mut self.line[..network.long]);
     }
 }
 

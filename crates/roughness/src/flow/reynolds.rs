@@ -4,7 +4,9 @@ use super::gap::{Axis, Gap, Oriented};
 use super::multigrid::{Multigrid, Network, dot};
 
 /// Relative error of the flux at which the search ends: that of the pressures is its root.
-const TOLERANCE: f64 = 1e-11;
+const TOLERANCE: f64 = 1e-9;
+/// The same of a flow that tells an error alone.
+const ERROR_TOLERANCE: f64 = 1e-4;
 /// Iterations at most.
 const ITERATIONS: usize = 500;
 
@@ -34,7 +36,7 @@ pub struct Leak {
 /// The error is what the flow changes on pixels twice as wide that let through as much, and what it changes
 /// there when the points without a height, closed else, have the gap of their rims.
 pub fn leak(gap: &Gap, axis: Axis) -> Option<Leak> {
-    let found = flow(gap, axis)?;
+    let found = flow(gap, axis, TOLERANCE)?;
     Some(Leak { error: error(gap, axis, found.conductance), ..found })
 }
 
@@ -42,19 +44,19 @@ fn error(gap: &Gap, axis: Axis, conductance: f64) -> f64 {
     let change =
         |from: f64, to: Option<Leak>| to.map_or(f64::INFINITY, |to| (to.conductance / from).ln().abs());
     let wide = gap.halved(true);
-    let coarse = flow(&wide.gap(), axis);
+    let coarse = flow(&wide.gap(), axis, ERROR_TOLERANCE);
     let pixels = change(conductance, coarse);
     if !gap.values.iter().any(|g| g.is_nan()) {
         return pixels.exp_m1();
     }
     let filled = gap.halved(false).filled();
-    let open = filled.and_then(|filled| flow(&filled.gap(), axis));
+    let open = filled.and_then(|filled| flow(&filled.gap(), axis, ERROR_TOLERANCE));
     let missing = coarse.map_or(f64::INFINITY, |coarse| change(coarse.conductance, open));
     (pixels + missing).exp_m1()
 }
 
 /// The flow without its error.
-fn flow(gap: &Gap, axis: Axis) -> Option<Leak> {
+fn flow(gap: &Gap, axis: Axis, tolerance: f64) -> Option<Leak> {
     let mut map = gap.oriented(axis);
     keep_crossing(&mut map);
     let largest = map.gaps.iter().copied().fold(0.0, f64::max);
@@ -62,7 +64,7 @@ fn flow(gap: &Gap, axis: Axis) -> Option<Leak> {
         return None;
     }
     let (network, entry) = network(&map, largest);
-    let (conductance, imbalance, iterations) = solve(network, &entry);
+    let (conductance, imbalance, iterations) = solve(network, &entry, tolerance);
     let conductance = conductance * largest.powi(3) / 12.0;
     let shape = map.wide as f64 * map.pixel[1] / (map.long as f64 * map.pixel[0]);
     let hydraulic_gap = (12.0 * conductance / shape).cbrt();
@@ -116,28 +118,28 @@ fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     (Network::new(map.long, map.wide, ahead, beside, ends), entry)
 }
 
-/// The flow from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the
-/// iterations.
-fn solve(network: Network, entry: &[f64]) -> (f64, f64, usize) {
+/// The flow from pressure 1 at the entry to 0 at the exit, to a relative `tolerance`, the relative difference of
+/// both, and the iterations.
+fn solve(network: Network, entry: &[f64], tolerance: f64) -> (f64, f64, usize) {
     let n = entry.len();
+    let long = network.long;
     let mut grids = Multigrid::from_network(network);
     let mut r = entry.to_vec();
-    let [mut x, mut z, mut t, mut given, mut room] = [(); 5].map(|()| vec![0.0; n]);
-    let long = grids.levels[0].long;
+    let [mut x, mut z, mut t, mut given] = [(); 4].map(|()| vec![0.0; n]);
     // the energy of the error is the error of what enters
     let enters = |x: &[f64]| entry.iter().zip(x).step_by(long).map(|(e, p)| e * (1.0 - p)).sum::<f64>();
     let (mut last, mut iterations) = (0.0, 0);
     for iteration in 0..ITERATIONS {
         iterations = iteration;
-        grids.cycle(&r, &mut z, &mut room);
+        grids.cycle(&r, &mut z);
         let now = dot(&r, &z);
-        if now <= TOLERANCE * enters(&x) {
+        if now <= tolerance * enters(&x) {
             break;
         }
         let beta = if last > 0.0 { now / last } else { 0.0 };
         last = now;
         t.iter_mut().zip(&z).for_each(|(t, z)| *t = z + beta * *t);
-        grids.levels[0].apply(&t, &mut given);
+        grids.apply(&t, &mut given);
         let step = now / dot(&t, &given);
         if !step.is_finite() {
             break;
