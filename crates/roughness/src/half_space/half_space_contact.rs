@@ -19,6 +19,11 @@ pub const TOLERANCE: f64 = 1e-6;
 const LONG_PIXEL: f64 = 30.0;
 /// The least error that can be asked for.
 pub const FINEST_TOLERANCE: f64 = 1e-10;
+/// The largest that can be asked for.
+const LOOSEST_TOLERANCE: f64 = 1e-2;
+/// The contacts of a series are found to so many times the tolerance of a single one: pixels leave a curve a
+/// hundred times less sure, and single precision proves it.
+const LOOSER: f64 = 10.0;
 
 /// The reason why a half-space cannot carry a load.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -159,6 +164,11 @@ impl Units {
 }
 
 impl HalfSpace {
+    /// The same for contacts of which a curve is drawn: they are found to [`LOOSER`] times the tolerance.
+    pub fn for_a_series(&self) -> HalfSpace {
+        HalfSpace { tolerance: (LOOSER * self.tolerance).min(LOOSEST_TOLERANCE), ..*self }
+    }
+
     /// Presses a rigid plane on `surface` until it carries `load`.
     ///
     /// # Errors
@@ -284,7 +294,7 @@ impl HalfSpace {
         if !(self.reduced_modulus > 0.0 && self.reduced_modulus.is_finite()) {
             return error("reduced_modulus", self.reduced_modulus, "it must be finite and above 0");
         }
-        if !(FINEST_TOLERANCE..=1e-2).contains(&self.tolerance) {
+        if !(FINEST_TOLERANCE..=LOOSEST_TOLERANCE).contains(&self.tolerance) {
             return error("tolerance", self.tolerance, "between 1e-10 and 0.01");
         }
         match self.limit {

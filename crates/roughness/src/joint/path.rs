@@ -81,10 +81,6 @@ const NEIGHBOURS: usize = 2;
 const NEAR_LOAD: f64 = 1.5;
 /// Share of the area in contact up to which the law bends so little.
 const SPOTS: f64 = 0.2;
-/// The loads are found to so many times the tolerance of a single contact, at most to the loosest: pixels
-/// leave the law a hundred times less sure, and single precision proves it.
-const LOOSER: f64 = 10.0;
-const LOOSEST: f64 = 1e-2;
 /// Share of the gap below which a chord that closes it is halved, so often at most: there the law bends too
 /// much for it.
 const LEAST_GAP: f64 = 0.25;
@@ -256,7 +252,7 @@ pub fn follow(
 ) -> Result<JointPath, JointError> {
     let touch = body.press(surface, Load::Pressure(0.0))?;
     let first_gap = touch.mean_gap;
-    let body = &HalfSpace { tolerance: (LOOSER * body.tolerance).min(LOOSEST), ..*body };
+    let body = &body.for_a_series();
     let mut steps = vec![Step::new(body, surface, &touch, first_gap, false)?];
     let (mut last, mut before): (Option<HalfSpaceContact>, Option<HalfSpaceContact>) = (None, None);
     let mut stopped = false;

@@ -155,17 +155,17 @@ impl Task {
         let other = by_slope.zip(limit).filter(|(a, b)| (a / b - 1.0).abs() > SAME_LIMIT).map(|(a, _)| a);
         let carries = |limit: &f64| pressure < *limit;
         let carried = limit.iter().chain(&other).all(carries);
-        let mut contacts = Vec::new();
+        let (mut contacts, body) = (Vec::new(), self.body.for_a_series());
         let bodies = [
             Some((By::Elastic, None)),
             limit.filter(carries).map(|limit| (By::Limited, Some(limit))),
             other.filter(carries).map(|limit| (By::LimitedBySlope, Some(limit))),
         ];
-        for (start, body) in starts.iter_mut().zip(bodies) {
-            let Some((by, limit)) = body else { continue };
+        for (start, pressed) in starts.iter_mut().zip(bodies) {
+            let Some((by, limit)) = pressed else { continue };
             // the grid of the last scale may be this one, and its contact near
             let (found, contact) =
-                press_scale(&HalfSpace { limit, ..self.body }, surface, pressure, regimes, start.as_ref())?;
+                press_scale(&HalfSpace { limit, ..body }, surface, pressure, regimes, start.as_ref())?;
             contacts.push((by, found));
             *start = Some(contact);
         }

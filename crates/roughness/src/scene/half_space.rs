@@ -16,7 +16,7 @@ const USUAL_POINTS: [(usize, usize); 2] = [(512 * 512, MOST_POINTS), (1024 * 102
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpaceScene {
-    /// Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default; the loads of a joint are found to ten times it.
+    /// Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default; the loads of a joint and the contacts of scales are found to ten times it.
     #[schemars(extend("minimum" = 1e-10, "maximum" = 1e-2))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
