@@ -43,7 +43,7 @@ impl Network {
     }
 
     /// What the lines beside `line` bring to its cells: Σ g x.
-    fn beside(&self, x: &[f64], line: usize, sum: &mut [f64]) {
+    fn inflow_from_beside(&self, x: &[f64], line: usize, sum: &mut [f64]) {
         let row = |line: usize| line * self.long..(line + 1) * self.long;
         let (here, below) = (row(line), row((line + self.wide - 1) % self.wide));
         let above = row((line + 1) % self.wide);
@@ -56,7 +56,7 @@ impl Network {
     pub fn apply(&self, x: &[f64], y: &mut [f64], sum: &mut [f64]) {
         let long = self.long;
         for (line, y) in y.chunks_exact_mut(long).enumerate() {
-            self.beside(x, line, sum);
+            self.inflow_from_beside(x, line, sum);
             let here = line * long..(line + 1) * long;
             let (x, ahead, whole) = (&x[here.clone()], &self.ahead[here.clone()], &self.sum[here]);
             for i in 0..long {
@@ -77,7 +77,7 @@ impl Network {
         let long = self.long;
         for step in 0..self.wide {
             let line = if backwards { self.wide - 1 - step } else { step };
-            self.beside(x, line, sum);
+            self.inflow_from_beside(x, line, sum);
             let here = line * long..(line + 1) * long;
             let (x, b, ahead) = (&mut x[here.clone()], &b[here.clone()], &self.ahead[here.clone()]);
             let inverse = &self.inverse[here];

@@ -118,8 +118,8 @@ fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     (Network::new(map.long, map.wide, ahead, beside, ends), entry)
 }
 
-/// The flow from pressure 1 at the entry to 0 at the exit, to a relative `tolerance`, the relative difference of
-/// both, and the iterations.
+/// The flow from pressure 1 at the entry to 0 at the exit, to a relative `tolerance`, the relative difference
+/// of both, and the iterations.
 fn solve(network: Network, entry: &[f64], tolerance: f64) -> (f64, f64, usize) {
     let n = entry.len();
     let long = network.long;
