@@ -11,7 +11,7 @@ use toml::Table;
 
 /// The folder of each crate and the crates of the workspace that it may import, without their prefix
 /// `asperity-`.
-const MAY_IMPORT: [(&str, &[&str]); 14] = [
+const MAY_IMPORT: [(&str, &[&str]); 15] = [
     ("crates/numerics", &[]),
     ("crates/formats", &["numerics"]),
     ("crates/material", &["numerics", "formats"]),
@@ -24,6 +24,7 @@ const MAY_IMPORT: [(&str, &[&str]); 14] = [
         &["numerics", "formats", "material", "mesh", "solver", "simulation", "calibration"],
     ),
     ("crates/roughness", &["numerics", "formats", "material"]),
+    ("crates/decks", &["numerics", "material", "mesh", "solver", "simulation"]),
     ("crates/draw", &["numerics", "formats", "material", "mesh", "solver", "simulation", "roughness"]),
     (
         "crates/asperity",
@@ -37,6 +38,7 @@ const MAY_IMPORT: [(&str, &[&str]); 14] = [
             "calibration",
             "identification",
             "roughness",
+            "decks",
             "draw",
         ],
     ),

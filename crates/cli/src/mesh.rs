@@ -2,7 +2,7 @@
 
 use crate::flags::SceneFlags;
 use crate::terminal;
-use asperity::calculix::{Deck, Reader};
+use asperity::calculix::{Reader, deck};
 use asperity::error::{Error, InputError};
 use asperity::input::scene::Scene;
 use asperity::mesh::{Mesh, Quality, write_msh, write_vtu};
@@ -100,7 +100,7 @@ fn content(scene: &Scene, mesh: &Mesh, format: MeshFormat) -> Result<(Vec<u8>, V
     let mut out = Vec::new();
     let mut warnings = Vec::new();
     let mut write_deck = |out: &mut Vec<u8>, reader| -> Result<(), Error> {
-        let deck = Deck::new(&scene.name(), scene, reader)?;
+        let deck = deck(&scene.name(), scene, reader)?;
         warnings = deck.warnings();
         deck.write(out).map_err(failed)
     };

@@ -1,12 +1,9 @@
 //! The content of a deck, made of a scene.
 
 use super::outline::outline;
-use crate::error::Error;
-use crate::input::scene::Scene;
-use crate::mesh::problem;
 use asperity_material::{PlasticTable, StressMeasure, curve_table};
 use asperity_mesh::{Edge, Mesh, Section};
-use asperity_simulation::scene::{Lateral, Scene as Tables, SceneError, Target};
+use asperity_simulation::scene::{Lateral, Scene, SceneError, Target};
 use asperity_simulation::setup::problem::Problem;
 use asperity_simulation::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::contact::slip::Friction;
@@ -43,56 +40,45 @@ pub enum Reader {
 /// Everything that a deck says, in µm and MPa.
 pub struct Deck {
     /// The program that reads it.
-    pub(super) reader: Reader,
+    pub(crate) reader: Reader,
     /// Name of the scene.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// The body, its axis opened to a hole.
-    pub(super) mesh: Mesh,
+    pub(crate) mesh: Mesh,
     /// Idealisation.
-    pub(super) section: Section,
+    pub(crate) section: Section,
     /// Young's modulus (MPa) and Poisson's ratio.
-    pub(super) elastic: [f64; 2],
+    pub(crate) elastic: [f64; 2],
     /// Hardening, unless the body is elastic.
-    pub(super) table: Option<PlasticTable>,
+    pub(crate) table: Option<PlasticTable>,
     /// The stress that it holds.
-    pub(super) stress_measure: StressMeasure,
+    pub(crate) stress_measure: StressMeasure,
     /// Contact pressure per penetration, MPa/µm.
-    pub(super) penalty: f64,
+    pub(crate) penalty: f64,
     /// Friction of the tool, its penalty the same; `None`: it is smooth.
-    pub(super) friction: Option<Friction>,
+    pub(crate) friction: Option<Friction>,
     /// Penetration for which the penalty is made, as a share of the depth.
-    pub(super) penetration: f64,
+    pub(crate) penetration: f64,
     /// True where the lateral sides are held sideways.
-    pub(super) symmetric: bool,
+    pub(crate) symmetric: bool,
     /// Edges that may touch the tool.
-    pub(super) contact: Vec<Edge>,
+    pub(crate) contact: Vec<Edge>,
     /// Lower outline of the tool where it first touches, from left to right, µm.
-    pub(super) outline: Vec<[f64; 2]>,
+    pub(crate) outline: Vec<[f64; 2]>,
     /// Travel of the tool at the end of each step, µm; the last one has left the body if the scene unloads.
-    pub(super) travels: Vec<f64>,
+    pub(crate) travels: Vec<f64>,
     /// The number of them that load.
-    pub(super) loading: usize,
+    pub(crate) loading: usize,
     /// Depth of the peak, µm.
-    pub(super) depth: f64,
+    pub(crate) depth: f64,
 }
 
 impl Deck {
-    /// The deck of `scene`, called `name` in its heading.
+    /// The deck of `problem`, which was prepared from `scene`, called `name` in its heading.
     ///
     /// # Errors
-    /// A scene that such a deck cannot express, pointing at its line.
-    pub fn new(name: &str, scene: &Scene, reader: Reader) -> Result<Deck, Error> {
-        let problem = problem(scene)?;
-        Deck::from_problem(name, scene.tables(), &problem, reader).map_err(|e| scene.error(&e).into())
-    }
-
-    /// The deck of `problem`, which was prepared from `scene`.
-    fn from_problem(
-        name: &str,
-        scene: &Tables,
-        problem: &Problem,
-        reader: Reader,
-    ) -> Result<Deck, SceneError> {
+    /// A scene that such a deck cannot express, with its key.
+    pub fn new(name: &str, scene: &Scene, problem: &Problem, reader: Reader) -> Result<Deck, SceneError> {
         if let Target::Force(_) = scene.loading.target()? {
             return Err(error(
                 "loading.force",
@@ -158,7 +144,7 @@ impl Deck {
 }
 
 /// Refuses materials and loadings that a deck cannot express.
-fn check(scene: &Tables) -> Result<(), SceneError> {
+fn check(scene: &Scene) -> Result<(), SceneError> {
     let material = &scene.material;
     let points = material.hardening_table.as_ref().map_or(0, Vec::len);
     if material.moving_share() > 0.0 {
@@ -238,7 +224,7 @@ fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
 
 /// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own
 /// schedule and the penetration to be expected.
-fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
+fn travels(scene: &Scene, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     let (depth, penetration) = (problem.depth, problem.numbers.penetration * problem.depth);
     let load = problem.numbers.schedule().into_iter().map(|share| share * depth + penetration).collect();
     if !scene.loading.unload {

@@ -1,0 +1,9 @@
+#![doc = include_str!("../README.md")]
+
+mod outline;
+
+mod deck;
+
+mod write;
+
+pub use deck::{Deck, Reader};
