@@ -89,6 +89,8 @@ fn what_has_no_law_is_refused_where_it_is_wrong() {
             &["load.pressure", "1000 MPa"],
         ),
         (&["--set", "thermal.conductivity=[\"50\", \"50 W/(m K)\"]"], &["no unit", "W/(m K)"]),
+        (&["--set", "joint.tiles=9"], &["joint.tiles", "between 1 and 8"]),
+        (&["--set", "joint.tiles=3"], &["joint.tiles", "10 points", "16"]),
         (&["--set", "joint.loads=2"], &["joint.loads", "between 5 and 200"]),
         (&["small.toml"], &["of one size", "32 x 32", "16 x 32"]),
     ] {
@@ -97,6 +99,46 @@ fn what_has_no_law_is_refused_where_it_is_wrong() {
         assert!(words.iter().all(|word| end.err.contains(word)), "{args:?}: {}", end.err);
         assert!(place.names("out").is_empty());
     }
+}
+
+/// Four quarters of a map are what four maps of those places are, each levelled by its plane: the same rows
+/// with the same repeatability.
+#[test]
+fn tiles_are_maps_of_their_places() {
+    let place = Place::with_scene("");
+    let height = |x: usize, y: usize| ((x * x + 3 * y * (x % 5) + 7 * y * y) % 23) as f64 / 40.0;
+    let text = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| -> String {
+        let row = |y: usize| columns.clone().map(|x| height(x, y).to_string()).collect::<Vec<_>>().join(",");
+        rows.map(|y| row(y) + "\n").collect()
+    };
+    // an odd last column and row fill no tile
+    std::fs::write(place.path("whole.csv"), text(0..41, 0..37)).unwrap();
+    for (name, x, y) in [("a", 0, 0), ("b", 20, 0), ("c", 0, 18), ("d", 20, 18)] {
+        std::fs::write(place.path(&format!("{name}.csv")), text(x..x + 20, y..y + 18)).unwrap();
+    }
+    let keys = ["surface.pixel_size=[\"1 um\", \"1 um\"]", "surface.height_unit=um", "load.pressure=500 MPa"];
+    let keys: Vec<&str> = keys.iter().chain(&["joint.loads=7"]).flat_map(|key| ["--set", key]).collect();
+    let tiles = ["joint", "whole.csv", "--set", "joint.tiles=2", "--out", "tiles"];
+    let maps = ["joint", "a.csv", "b.csv", "c.csv", "d.csv", "--out", "maps"];
+    for args in [&tiles[..], &maps] {
+        let end = place.run(&[args, &keys].concat());
+        assert_eq!(end.status, 0, "{}", end.err);
+    }
+    let [tiles, maps] = ["tiles", "maps"].map(|folder| rows(&place, &format!("{folder}/joint.csv")));
+    assert_eq!(tiles.len(), maps.len());
+    let mut spread: f64 = 0.0;
+    for (tile, map) in tiles.iter().zip(&maps) {
+        for (name, value) in tile {
+            let [a, b] = [value, &map[name]].map(|text| text.parse::<f64>());
+            match (a, b) {
+                // heights levelled once more differ by rounding
+                (Ok(a), Ok(b)) => assert!((a - b).abs() <= 1e-4 * b.abs().max(1e-12), "{name}: {a} {b}"),
+                _ => assert_eq!(value, &map[name], "{name}"),
+            }
+        }
+        spread = spread.max(tile["repeatability"].parse().unwrap_or(0.0));
+    }
+    assert!(spread > 0.0);
 }
 
 /// The sentence of `rough`, by every command that reads a map.

@@ -358,7 +358,7 @@ class HalfSpaceTable(TypedDict, total=False):
 
     tolerance: float
     """Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default; the
-    loads of a joint are found to ten times it.
+    loads of a joint and the contacts of scales are found to ten times it.
     """
 
 
@@ -372,6 +372,11 @@ class JointTable(TypedDict, total=False):
 
     loads: int
     """Loads from first touch to the largest: 25 by default."""
+
+    tiles: int
+    """Tiles along each side of the map, each levelled by a plane and pressed alone: the law is their mean, and how far
+    they differ its repeatability. By default the whole map.
+    """
 
 
 class RoughLoadTable(TypedDict, total=False):

@@ -61,9 +61,11 @@ pub fn joint(
         return Err(InputError::new("no surface was given").help("give a scene or a map of heights").into());
     };
     scenes.iter().try_for_each(|scene| scene.tables().validate_joint().map_err(|e| scene.error(&e)))?;
-    let surfaces = scenes.iter().map(RoughScene::prepare_surface).collect::<Result<Vec<_>, _>>()?;
-    same_size(scenes, &surfaces)?;
+    let whole = scenes.iter().map(RoughScene::prepare_surface).collect::<Result<Vec<_>, _>>()?;
+    same_size(scenes, &whole)?;
     let tables = scene.tables();
+    let range = left_out(scene, &whole[0]);
+    let surfaces = places(scene, whole)?;
     let asked = tables.load.of_joint().map_err(|e| scene.error(&e))?;
     let metal = metal(scene, &surfaces[0], asked)?;
     let refused = |e: JointError| Error::from(scene.error(&SceneError::new(place(&e), e)));
@@ -74,7 +76,7 @@ pub fn joint(
         .try_fold(f64::INFINITY, |least, found| Ok::<_, JointError>(least.min(found?)))
         .map_err(refused)?;
     let pressures = loads(largest, tables.joint.loads());
-    let all = pressures.len() * scenes.len();
+    let all = pressures.len() * surfaces.len();
     let mut maps: Vec<PressedMap> = Vec::new();
     for surface in surfaces {
         let done = maps.len() * pressures.len();
@@ -85,9 +87,21 @@ pub fn joint(
             return Err(Error::Unfinished(text.into()));
         }
     }
-    let mut found = evaluate(scenes, &metal, &maps).ok_or_else(|| refused(JointError::NoTouch))?;
+    let mut found = evaluate(scenes, &metal, &maps, range).ok_or_else(|| refused(JointError::NoTouch))?;
     found.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(found)
+}
+
+/// The maps that are pressed: those given, or their tiles.
+fn places(scene: &RoughScene, whole: Vec<Surface>) -> Result<Vec<Surface>, InputError> {
+    let Some(count) = scene.tables().joint.tiles.filter(|count| *count > 1) else { return Ok(whole) };
+    let mut places = Vec::new();
+    for surface in whole {
+        let mut tiles = surface.tiles(count).map_err(|e| scene.error(&SceneError::new("joint.tiles", e)))?;
+        tiles[0].notes = surface.notes;
+        places.extend(tiles);
+    }
+    Ok(places)
 }
 
 /// The key that an error is about.
@@ -204,14 +218,13 @@ fn left_out(scene: &RoughScene, surface: &Surface) -> Option<f64> {
     (high >= low).then_some(high - low)
 }
 
-/// Rows and summary of the maps that were pressed; None of no map.
-fn evaluate(scenes: &[RoughScene], metal: &Metal, maps: &[PressedMap]) -> Option<Joint> {
+/// Rows and summary of the maps that were pressed, which leave out the `range` (m) of heights; None of no map.
+fn evaluate(scenes: &[RoughScene], metal: &Metal, maps: &[PressedMap], range: Option<f64>) -> Option<Joint> {
     let (scene, surface) = (scenes.first()?, &maps.first()?.surface);
     let tables = scene.tables();
     let paths: Vec<JointPath> = maps.iter().map(|map| map.path.clone()).collect();
     let path = JointPath::mean(&paths)?;
     let law = Law::new(&path.loading);
-    let range = left_out(scene, surface);
     let elastic = metal.body.limit.is_none();
     let bounded = |point: &JointPoint| {
         // what flows does not get stiffer with every load

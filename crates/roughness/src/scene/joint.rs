@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 
 /// Most loads of a joint.
 const MOST_LOADS: usize = 200;
+/// Most tiles along a side of a map.
+const MOST_TILES: usize = 8;
 
 /// The loads of a joint, and the roughness that its map does not hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +24,10 @@ pub struct JointScene {
     #[schemars(example = "20 nm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_out: Option<Length>,
+    /// Tiles along each side of the map, each levelled by a plane and pressed alone: the law is their mean, and how far they differ its repeatability. By default the whole map.
+    #[schemars(extend("minimum" = 1, "maximum" = 8))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tiles: Option<usize>,
 }
 
 /// The heat that a joint lets through.
@@ -62,6 +68,9 @@ impl JointScene {
         if let Some(n) = self.loads.filter(|n| !(FEWEST_LOADS..=MOST_LOADS).contains(n)) {
             let message = format!("{n} must be between {FEWEST_LOADS} and {MOST_LOADS}");
             return error("joint.loads", message);
+        }
+        if let Some(n) = self.tiles.filter(|n| !(1..=MOST_TILES).contains(n)) {
+            return error("joint.tiles", format!("{n} must be between 1 and {MOST_TILES}, along each side"));
         }
         match self.left_out {
             Some(range) if range.0 < 0.0 => error(

@@ -53,6 +53,18 @@ pub enum MapError {
         /// Nodes along y.
         rows: usize,
     },
+    /// Tiles of too few points.
+    #[error(
+        "{count} x {count} tiles have {points} points along their shorter side, fewer than {fewest}: cut fewer"
+    )]
+    SmallTiles {
+        /// Tiles along a side.
+        count: usize,
+        /// Points along the shorter side of one.
+        points: usize,
+        /// The fewest.
+        fewest: usize,
+    },
 }
 
 /// Heights on a regular grid, in metres; a missing point is NaN, and only a missing point is.

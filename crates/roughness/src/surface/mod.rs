@@ -15,3 +15,4 @@ pub(crate) mod spectrum;
 pub(crate) mod generate;
 
 pub(crate) mod prepared_surface;
+mod tiles;
