@@ -120,5 +120,24 @@ fn stated(report: &mut Report, count: usize) -> Result<(), Box<dyn Error>> {
             quantile(ratios.iter().copied(), 0.5)
         ));
     }
+    // force and area at the peak
+    let outside: Vec<String> = judged
+        .iter()
+        .enumerate()
+        .flat_map(|(number, found)| {
+            let told = move |i: usize| {
+                let [error, stated] = found.as_ref()?;
+                let [error, stated] = [error[i]?, stated[i]?];
+                let name = QUANTITIES[i];
+                (error > stated).then(|| {
+                    format!("{name} of {number} ({:.1} %, {:.1} stated)", 100.0 * error, 100.0 * stated)
+                })
+            };
+            (0..2).filter_map(told)
+        })
+        .collect();
+    if !outside.is_empty() {
+        report.line(&format!("\nOutside: {}.", outside.join(", ")));
+    }
     Ok(())
 }

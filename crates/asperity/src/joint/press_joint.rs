@@ -218,7 +218,7 @@ fn left_out(scene: &RoughScene, surface: &Surface) -> Option<f64> {
     (high >= low).then_some(high - low)
 }
 
-/// Rows and summary of the maps that were pressed, which leave out the `range` (m) of heights; None of no map.
+/// Rows and summary of the maps that were pressed, which leave out a `range` (m) of heights; None of no map.
 fn evaluate(scenes: &[RoughScene], metal: &Metal, maps: &[PressedMap], range: Option<f64>) -> Option<Joint> {
     let (scene, surface) = (scenes.first()?, &maps.first()?.surface);
     let tables = scene.tables();
