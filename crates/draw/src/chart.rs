@@ -428,7 +428,7 @@ pub fn axes<'a>(
         .margin(LEFT * FINE_PIXELS)
         .margin_right(26 * FINE_PIXELS)
         .x_label_area_size(52 * FINE_PIXELS)
-        .y_label_area_size(72 * FINE_PIXELS)
+        .y_label_area_size(90 * FINE_PIXELS)
         .build_cartesian_2d(x, y)?;
     area.configure_mesh()
         .light_line_style(TRANSPARENT)
