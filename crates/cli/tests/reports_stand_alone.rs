@@ -118,7 +118,59 @@ fn reported(scene: &str, args: &[&str], summary: &str) -> (Place, usize) {
     let end = place.run(&[args, &["--report", "--out", "out", "--quiet"]].concat());
     assert_eq!(end.status, 0, "{}", end.err);
     let count = checked(&place.text("out/report.html"), &place.text(&format!("out/{summary}")));
+    legible_on_a_phone(&place, "out/report.html");
     (place, count)
+}
+
+/// Shows a report 390 pixels wide and lists what is wider than the page, letters below 9 pixels, letters that
+/// the edge of their drawing cuts, and letters that touch others.
+const PHONE: &str = r#"<iframe style="width:390px;height:900px;border:0"></iframe><script>
+const frame = document.querySelector("iframe");
+frame.addEventListener("load", () => {
+  const page = frame.contentDocument, found = [];
+  const { scrollWidth } = page.documentElement;
+  if (scrollWidth > 390) found.push(`the page is ${scrollWidth} pixels wide`);
+  for (const svg of page.querySelectorAll("svg")) {
+    if (svg.parentElement.closest("svg")) continue;
+    const edge = svg.getBoundingClientRect(), before = [];
+    for (const text of svg.querySelectorAll("text")) {
+      if (!text.textContent.trim()) continue;
+      const { a, b } = text.getScreenCTM(), box = text.getBoundingClientRect();
+      const size = parseFloat(frame.contentWindow.getComputedStyle(text).fontSize) * Math.hypot(a, b);
+      if (size < 9) found.push(`${size.toFixed(1)} pixels: ${text.textContent}`);
+      const cut = box.left < edge.left - 1 || box.right > edge.right + 1 || box.top < edge.top - 1 || box.bottom > edge.bottom + 1;
+      if (cut) found.push(`cut: ${text.textContent}`);
+      for (const [other, name] of before) {
+        const across = Math.min(box.right, other.right) - Math.max(box.left, other.left);
+        const down = Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top);
+        if (across > 2 && down > 3) found.push(`touch: ${name}, ${text.textContent}`);
+      }
+      before.push([box, text.textContent]);
+    }
+  }
+  document.title = JSON.stringify(found);
+});
+frame.srcdoc = document.querySelector("template").innerHTML;
+</script>"#;
+
+/// In a browser: nothing of the page is too small, cut or hidden on a phone. Skipped where there is none.
+fn legible_on_a_phone(place: &Place, name: &str) {
+    let Some(browser) = common::browser() else { return };
+    let probe = format!("<title>not run</title><template>{}</template>{PHONE}", place.text(name));
+    std::fs::write(place.path("phone.html"), probe).unwrap();
+    let page = Html::parse_document(&drawn(browser, place, "phone.html"));
+    let title: String = each(&page, "head > title")[0].text().collect();
+    assert_eq!(title, "[]", "{name}");
+}
+
+/// The document of a page after its scripts have run.
+fn drawn(browser: &str, place: &Place, name: &str) -> String {
+    let output = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"])
+        .arg(format!("file://{}", place.path(name).display()))
+        .output()
+        .unwrap();
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 #[test]
@@ -222,12 +274,7 @@ fn a_browser_tells_the_values_of_a_curve() {
                  document.title=document.querySelector('figure.chart output').textContent</script></body>";
     std::fs::write(place.path("probe.html"), place.text("out/report.html").replace("</body>", press))
         .unwrap();
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"])
-        .arg(format!("file://{}", place.path("probe.html").display()))
-        .output()
-        .unwrap();
-    let page = Html::parse_document(&String::from_utf8_lossy(&output.stdout));
+    let page = Html::parse_document(&drawn(browser, &place, "probe.html"));
     let title: String = each(&page, "title")[0].text().collect();
     assert!(title.starts_with("unloading: Depth h (µm) ") && title.contains(", Force F (N) "), "{title}");
     assert_eq!(each(&page, "svg circle.here").len(), 1);

@@ -1,7 +1,8 @@
 //! Line charts as SVG: labelled with units, legible in print and to colour-blind people.
 //!
 //! Lines differ in colour and in dash, so that either alone tells them apart, unless they say how they look.
-//! The legend stands beside the axes, where no data are.
+//! The legend stands below the axes, where no data are. A chart is so narrow that its letters stay legible
+//! on a phone, where it is shrunk to the width of the page.
 
 use super::encode::FAMILY;
 use super::palette::{self, Colour};
@@ -105,8 +106,8 @@ impl Chart {
     }
 }
 
-/// Width and height of the axes with their names in pixels.
-const SIZE: (u32, u32) = (760, 500);
+/// Width and height of the axes with their names in pixels; 15 pixels of 540 are more than 9 on a phone.
+pub const SIZE: (u32, u32) = (540, 400);
 /// The library draws at whole pixels: it gets that many to a pixel of the picture.
 pub const FINE_PIXELS: u32 = 8;
 /// Lines and letters.
@@ -119,10 +120,15 @@ pub const fn rgb([r, g, b]: Colour) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// Letters of `size` pixels.
+/// Letters of `size` pixels: the library writes the 1.24th part of a size into a document.
 pub fn font(size: u32) -> TextStyle<'static> {
-    (FAMILY, size * FINE_PIXELS).into_font().color(&INK)
+    (FAMILY, size * FINE_PIXELS * 124 / 100).into_font().color(&INK)
 }
+
+/// Most steps of an axis: the numbers of more would touch.
+const STEPS: f64 = 6.0;
+/// Share of a step by which a value may pass the end of an axis: what no eye sees adds no step.
+const CLOSE: f64 = 1e-3;
 
 /// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
 #[derive(Clone)]
@@ -137,20 +143,20 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Covers `values` and 0 with about seven steps.
+    /// Covers `values` and 0 with about six steps.
     pub fn covering(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values.fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
         let span = if high > low { high - low } else { 1.0 };
-        let step = scale::round_step(span, 7.0);
-        let low = if low < 0.0 { (low / step + 1e-6).floor() * step } else { 0.0 };
-        let high = ((high / step - 1e-6).ceil() * step).max(low + step);
+        let step = scale::round_step(span, STEPS);
+        let low = if low < 0.0 { (low / step + CLOSE).floor() * step } else { 0.0 };
+        let high = ((high / step - CLOSE).ceil() * step).max(low + step);
         Axis { low, high, step, logarithmic: false }
     }
 
-    /// From one of `ends` to the other, with about seven steps.
+    /// From one of `ends` to the other, with about six steps.
     pub fn spanning([low, high]: [f64; 2]) -> Self {
         let high = if high > low { high } else { low + 1.0 };
-        Axis { low, high, step: scale::round_step(high - low, 7.0), logarithmic: false }
+        Axis { low, high, step: scale::round_step(high - low, STEPS), logarithmic: false }
     }
 
     /// Covers logarithms by whole decades, at least one.
@@ -199,10 +205,12 @@ pub enum Sample {
     Line(RGBColor, [u32; 2]),
     /// A mark of this colour with its outline about the middle.
     Mark(RGBColor, Vec<(i32, i32)>),
+    /// Nothing: the name heads those that follow.
+    Heading,
 }
 
 /// An SVG document: axes of so many pixels that `fill` draws on, [`FINE_PIXELS`] times finer, and the legend
-/// to their right.
+/// below them.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
@@ -214,45 +222,80 @@ pub fn framed(
     paint(size, legend, fill).map_err(|e| format!("the chart could not be drawn: {e}"))
 }
 
-/// Pixels from the left end of a legend to its names.
-const SAMPLE: u32 = 46;
+/// Height of a row of a legend in pixels.
+const ROW: u32 = 23;
+/// Pixels from the left end of a chart to what stands above and below its axes.
+const LEFT: u32 = 14;
+
+impl Sample {
+    /// Pixels from its left end to its name.
+    fn width(&self) -> u32 {
+        if matches!(self, Sample::Heading) { 0 } else { 44 }
+    }
+}
+
+/// Pixels that an entry of a legend takes, by the number of its letters.
+fn room((name, sample): &(String, Sample)) -> u32 {
+    sample.width() + 10 * name.chars().count() as u32 + 14
+}
+
+/// Pixel from the left and row of each entry of a legend: a row is filled before the next one begins.
+fn legend_places(width: u32, legend: &[(String, Sample)]) -> Vec<[u32; 2]> {
+    let mut next = [LEFT, 0];
+    let place = |entry| {
+        if next[0] > LEFT && next[0] + room(entry) > width {
+            next = [LEFT, next[1] + 1];
+        }
+        let here = next;
+        next[0] += room(entry);
+        here
+    };
+    legend.iter().map(place).collect()
+}
 
 fn paint(
     (width, height): (u32, u32),
     legend: &[(String, Sample)],
     fill: impl FnOnce(&Paper) -> Result<(), Failure>,
 ) -> Result<String, Failure> {
-    let letters = legend.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0) as u32;
-    let whole = width + if legend.is_empty() { 0 } else { SAMPLE + 9 * letters + 14 };
+    let places = legend_places(width, legend);
+    let ends = places.iter().zip(legend).map(|([x, _], entry)| x + room(entry));
+    let whole = ends.max().unwrap_or(0).max(width);
+    let rows = places.last().map_or(0, |[_, row]| row + 1);
+    let tall = height + if rows > 0 { ROW * rows + 6 } else { 0 };
     let mut text = String::new();
     let root =
-        SVGBackend::with_string(&mut text, (whole * FINE_PIXELS, height * FINE_PIXELS)).into_drawing_area();
+        SVGBackend::with_string(&mut text, (whole * FINE_PIXELS, tall * FINE_PIXELS)).into_drawing_area();
     root.fill(&WHITE)?;
-    let (axes, beside) = root.split_horizontally(width * FINE_PIXELS);
+    let (above, below) = root.split_vertically(height * FINE_PIXELS);
+    let (axes, _) = above.split_horizontally(width * FINE_PIXELS);
     fill(&axes)?;
     let fine = FINE_PIXELS as i32;
-    for (i, (name, sample)) in legend.iter().enumerate() {
-        let y = (28 + 24 * i as i32) * fine;
+    for ([x, row], (name, sample)) in places.into_iter().zip(legend) {
+        let [x, y] = [x as i32, (ROW * row + ROW / 2) as i32].map(|pixels| pixels * fine);
         match sample {
             Sample::Line(colour, [dash, gap]) => {
-                let (line, style) = ([(0, y), (36 * fine, y)], colour.stroke_width(2 * FINE_PIXELS));
+                let (line, style) = ([(x, y), (x + 36 * fine, y)], colour.stroke_width(2 * FINE_PIXELS));
                 match (dash, gap) {
-                    (_, 0) => beside.draw(&PathElement::new(line, style))?,
-                    (0, _) => beside.draw(&Circle::new((18 * fine, y), 3 * FINE_PIXELS, colour.filled()))?,
-                    _ => beside.draw(&DashedPathElement::new(line, *dash, *gap, style))?,
+                    (_, 0) => below.draw(&PathElement::new(line, style))?,
+                    (0, _) => {
+                        below.draw(&Circle::new((x + 18 * fine, y), 3 * FINE_PIXELS, colour.filled()))?
+                    }
+                    _ => below.draw(&DashedPathElement::new(line, *dash, *gap, style))?,
                 }
             }
             Sample::Mark(colour, outline) => {
-                let moved: Vec<_> = outline.iter().map(|(dx, dy)| (18 * fine + dx, y + dy)).collect();
-                beside.draw(&Polygon::new(moved, colour.filled()))?;
+                let moved: Vec<_> = outline.iter().map(|(dx, dy)| (x + 18 * fine + dx, y + dy)).collect();
+                below.draw(&Polygon::new(moved, colour.filled()))?;
             }
+            Sample::Heading => {}
         }
         let style = font(15).pos(Pos::new(HPos::Left, VPos::Center));
-        beside.draw(&Text::new(name.as_str(), (SAMPLE as i32 * fine, y), style))?;
+        below.draw(&Text::new(name.as_str(), (x + sample.width() as i32 * fine, y), style))?;
     }
     root.present()?;
-    drop((axes, beside, root));
-    let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", whole * scale, height * scale);
+    drop((axes, above, below, root));
+    let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", whole * scale, tall * scale);
     Ok(text.replacen(&header(FINE_PIXELS), &header(1), 1))
 }
 
@@ -297,7 +340,13 @@ pub fn located(chart: &Chart) -> Result<(String, Window), String> {
         let (colour, dashes) = pen(i, series);
         (series.label.clone(), Sample::Line(colour, dashes))
     };
-    let legend: Vec<_> = chart.series.iter().enumerate().map(entry).collect();
+    let mut legend: Vec<(String, Sample)> = Vec::new();
+    for (name, sample) in chart.series.iter().enumerate().map(entry) {
+        // both ends of an interval have one name
+        if legend.iter().all(|(other, _)| *other != name) {
+            legend.push((name, sample));
+        }
+    }
     let mut window = Window::default();
     let drawn = framed(SIZE, &legend, |paper| {
         window = draw(chart, paper)?;
@@ -306,38 +355,60 @@ pub fn located(chart: &Chart) -> Result<(String, Window), String> {
     if chart.title.is_empty() {
         return Ok((drawn, window));
     }
-    let Some(titled) = below_title(&chart.title, &drawn) else { return Ok((drawn, window)) };
-    window.frame[1] += f64::from(TITLE * FINE_PIXELS);
-    window.frame[3] += f64::from(TITLE * FINE_PIXELS);
+    let Some((titled, shift)) = below_title(&chart.title, &drawn) else { return Ok((drawn, window)) };
+    window.frame[1] += f64::from(shift * FINE_PIXELS);
+    window.frame[3] += f64::from(shift * FINE_PIXELS);
     Ok((titled, window))
 }
 
 /// The same for a drawing of [`framed`]: the document below a title.
 pub fn titled(title: &str, drawn: String) -> String {
-    below_title(title, &drawn).unwrap_or(drawn)
+    below_title(title, &drawn).map_or(drawn, |(titled, _)| titled)
 }
 
-/// Height of a title in pixels.
-const TITLE: u32 = 30;
+/// `text` in lines of at most so many letters, broken between words.
+fn lines(text: &str, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
+}
 
-/// The document `drawn` of [`framed`] below a title; `None` if it is none of that.
-fn below_title(title: &str, drawn: &str) -> Option<String> {
+/// Height of a line of a title in pixels.
+const TITLE: u32 = 22;
+
+/// The document `drawn` of [`framed`] below a title, and the title's height in pixels; `None` if it is none
+/// of that.
+fn below_title(title: &str, drawn: &str) -> Option<(String, u32)> {
     let (head, rest) = drawn.split_once("<svg width=\"")?;
     let (tag, body) = rest.split_once('>')?;
     let mut numbers = tag.split(|c: char| !c.is_ascii_digit()).filter_map(|word| word.parse::<u32>().ok());
-    let (width, height) = (numbers.next()?, numbers.next()? + TITLE);
+    let (width, height) = (numbers.next()?, numbers.next()?);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    let [fine, left, line, size] = [TITLE, 84, 22, 17].map(|pixels| pixels * FINE_PIXELS);
-    Some(format!(
+    let lines = lines(&title, ((width - 2 * LEFT) / 10) as usize);
+    let above = TITLE * lines.len() as u32 + 8;
+    let height = height + above;
+    let [fine, left, line, size] = [above, LEFT, TITLE, 17].map(|pixels| pixels * FINE_PIXELS);
+    let spans = lines.iter().map(|text| format!("<tspan x=\"{left}\" dy=\"{line}\">{text}</tspan>"));
+    let text = format!(
         "{head}<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\">\
          <title>{title}</title><rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\
-         <text x=\"{left}\" y=\"{line}\" font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"{}\">{title}</text>\
+         <text y=\"0\" font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"{}\">{}</text>\
          <g transform=\"translate(0 {fine})\">{}</g></svg>\n",
         width * FINE_PIXELS,
         height * FINE_PIXELS,
         palette::hex(palette::INK),
+        spans.collect::<String>(),
         body.trim_end().strip_suffix("</svg>")?
-    ))
+    );
+    Some((text, above))
 }
 
 /// Axes on `paper` with their grid and names.
@@ -349,11 +420,15 @@ pub fn axes<'a>(
     [x, y]: [Axis; 2],
     names: [&str; 2],
 ) -> Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>, Failure> {
+    // names are whole: letters get smaller where there are many
+    let (wide, high) = paper.dim_in_pixel();
+    let fitting = |name: &str, room: u32| room * 10 / (6 * FINE_PIXELS * name.chars().count().max(1) as u32);
+    let size = fitting(names[0], wide * 9 / 10).min(fitting(names[1], high)).clamp(9, 16);
     let mut area = ChartBuilder::on(paper)
-        .margin(14 * FINE_PIXELS)
+        .margin(LEFT * FINE_PIXELS)
         .margin_right(26 * FINE_PIXELS)
         .x_label_area_size(52 * FINE_PIXELS)
-        .y_label_area_size(70 * FINE_PIXELS)
+        .y_label_area_size(90 * FINE_PIXELS)
         .build_cartesian_2d(x, y)?;
     area.configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -361,7 +436,7 @@ pub fn axes<'a>(
         .axis_style(INK.stroke_width(FINE_PIXELS))
         .set_all_tick_mark_size(5 * FINE_PIXELS)
         .label_style(font(15))
-        .axis_desc_style(font(17))
+        .axis_desc_style(font(size))
         .x_desc(names[0])
         .y_desc(names[1])
         .draw()?;
@@ -404,3 +479,6 @@ pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
     }
     Ok(Window { frame, range })
 }
+
+#[cfg(test)]
+mod tests;

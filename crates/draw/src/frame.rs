@@ -8,16 +8,18 @@ use maud::{Markup, PreEscaped, Render, html};
 
 /// Lines take the colour of the text around them, so that they show on dark ground too; those on the body are
 /// dark.
-const STYLE: &str = ".section text{font:13px \"DejaVu Sans\",system-ui,sans-serif;fill:currentColor}.section .title{font-size:15px}\
+const STYLE: &str = ".section text{font:15px \"DejaVu Sans\",system-ui,sans-serif;fill:currentColor}.section .title{font-size:16px}\
 .section .line{fill:none;stroke:currentColor;stroke-width:1}.section .thin{fill:none;stroke:#26303a;stroke-width:.5;opacity:.6}\
 .section .grid{stroke:currentColor;stroke-width:.5;opacity:.2}.section .tool{fill:#8b95a1}.section .on-tool{fill:#fff}\
 .section .area{fill:#0072b2;fill-opacity:.35;stroke:#0072b2;stroke-width:1.5}\
 .section .ruler{fill:#fff;stroke:#1e1e1e;stroke-width:1}.section .on-map{fill:#1e1e1e}.section .paper{fill:#fff;fill-opacity:.8}";
 
 /// Room left of a window, for the numbers of the vertical axis.
-pub const ROOM_LEFT: f64 = 72.0;
+pub const ROOM_LEFT: f64 = 64.0;
+/// Left end of headings above a window.
+pub const HEADS: f64 = 8.0;
 /// Room right of it, for the colour bar.
-pub const ROOM_RIGHT: f64 = 96.0;
+pub const ROOM_RIGHT: f64 = 88.0;
 
 /// A number of a drawing, to a hundredth.
 pub struct Short(pub f64);
@@ -41,7 +43,7 @@ pub fn document(size: [f64; 2], title: &str, body: &Markup) -> String {
         svg xmlns="http://www.w3.org/2000/svg" class="section" viewBox={ "0 0 " (width) " " (height) }
             width=(width) height=(height) role="img" aria-label=(title) {
             style { (PreEscaped(STYLE)) }
-            @if !title.is_empty() { text class="title" x=(Short(ROOM_LEFT)) y="18" { (title) } }
+            @if !title.is_empty() { text class="title" x=(Short(HEADS)) y="18" { (title) } }
             (body)
         }
     };
@@ -128,7 +130,7 @@ impl Frame {
         let y = |share: f64| self.top + height * (1.0 - share);
         let count = bands.colours.len() as f64;
         // numbers closer than a line of text are left out
-        let sparse = ((bands.labels.len() as f64 * 15.0 / height).ceil() as usize).max(1);
+        let sparse = ((bands.labels.len() as f64 * 17.0 / height).ceil() as usize).max(1);
         html! {
             @for (i, colour) in bands.colours.iter().enumerate() {
                 rect x=(Short(x)) y=(Short(y((i as f64 + 1.0) / count))) width="16" height=(Short(height / count + 0.3)) fill=(hex(*colour)) {}
@@ -136,7 +138,7 @@ impl Frame {
             rect class="line" x=(Short(x)) y=(Short(self.top)) width="16" height=(Short(height)) {}
             @for (share, label) in bands.labels.iter().step_by(sparse) {
                 path class="line" d={ "M" (Short(x + 16.0)) " " (Short(y(*share))) "h4" } {}
-                text x=(Short(x + 23.0)) y=(Short(y(*share) + 4.5)) { (label) }
+                text x=(Short(x + 23.0)) y=(Short(y(*share) + 5.0)) { (label) }
             }
         }
     }
@@ -146,22 +148,33 @@ impl Frame {
 pub fn tick(y: f64, label: &str) -> Markup {
     html! {
         path class="line" d={ "M" (Short(ROOM_LEFT - 5.0)) " " (Short(y)) "h5" } {}
-        text x=(Short(ROOM_LEFT - 8.0)) y=(Short(y + 4.5)) text-anchor="end" { (label) }
+        text x=(Short(ROOM_LEFT - 8.0)) y=(Short(y + 5.0)) text-anchor="end" { (label) }
     }
 }
 
-/// Boxes of colour in a row from (`ROOM_LEFT`, `y`), each with its name.
-pub fn boxes(y: f64, entries: &[(Colour, String)]) -> Markup {
-    // room by the number of letters
-    let starts = entries.iter().scan(ROOM_LEFT, |x, (_, name)| {
-        let start = *x;
-        *x += 38.0 + 7.6 * name.chars().count() as f64;
-        Some(start)
-    });
-    html! {
-        @for (x, (colour, name)) in starts.zip(entries) {
-            rect x=(Short(x)) y=(Short(y)) width="14" height="14" fill=(hex(*colour)) stroke="currentColor" stroke-width=".5" {}
-            text x=(Short(x + 20.0)) y=(Short(y + 12.0)) { (name) }
+/// Height of a row of [`boxes`].
+const ROW: f64 = 24.0;
+
+/// Boxes of colour, each with its name, in rows from (`HEADS`, `y`) to `width` at most, and the height of the
+/// rows.
+pub fn boxes(y: f64, width: f64, entries: &[(Colour, String)]) -> (Markup, f64) {
+    let mut next = [HEADS, y];
+    let mut places = Vec::new();
+    for (_, name) in entries {
+        // room by the number of letters
+        let room = 36.0 + 8.8 * name.chars().count() as f64;
+        if next[0] > HEADS && next[0] + room > width {
+            next = [HEADS, next[1] + ROW];
         }
+        places.push(next);
+        next[0] += room;
     }
+    let height = places.last().map_or(0.0, |last| last[1] + ROW - y);
+    let drawn = html! {
+        @for ([x, y], (colour, name)) in places.into_iter().zip(entries) {
+            rect x=(Short(x)) y=(Short(y)) width="14" height="14" fill=(hex(*colour)) stroke="currentColor" stroke-width=".5" {}
+            text x=(Short(x + 20.0)) y=(Short(y + 12.5)) { (name) }
+        }
+    };
+    (drawn, height)
 }

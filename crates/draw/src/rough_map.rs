@@ -4,7 +4,7 @@
 //! for dot.
 
 use super::encode::{drawing_png, indexed_png};
-use super::frame::{Frame, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
+use super::frame::{Frame, HEADS, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
 use super::palette::{Bands, Colour, REGIMES, interpolated};
 use super::scale;
 use crate::numbers::decimals;
@@ -14,14 +14,14 @@ use maud::{Markup, html};
 pub const MAX_SIDE_DOTS: usize = 2048;
 /// Small maps are enlarged to about so many dots.
 const WANTED_DOTS: usize = 640;
-/// Longer side of a map on paper.
-const SIDE: f64 = 560.0;
+/// Longer side of a map on paper: the whole is so narrow that its letters stay legible on a phone.
+const SIDE: f64 = 408.0;
 /// Room above a map for title and heading.
-const ROOM_ABOVE: f64 = 54.0;
+const ROOM_ABOVE: f64 = 58.0;
 /// Room below it for its axis, and for the key.
 const ROOM_BELOW: f64 = 76.0;
 /// A colour bar is at least so high, a picture at least so wide.
-const MIN_SIZE: [f64; 2] = [420.0, 110.0];
+const MIN_SIZE: [f64; 2] = [560.0, 110.0];
 
 /// Outlines on a map.
 const MARK: &str = "#0086c8";
@@ -101,7 +101,7 @@ impl Grid {
     ) -> Result<Vec<u8>, String> {
         let picture = indexed_png(self.dots, palette, indices)?;
         let body = html! {
-            text x=(Short(ROOM_LEFT)) y="40" { (heading) }
+            text x=(Short(HEADS)) y="41" { (heading) }
             (self.frame.image(&picture))
             (self.frame.axes(["x (µm)", "y (µm)"], true))
             (self.ruler())
@@ -136,7 +136,7 @@ impl Grid {
         html! {
             ellipse rx=(Short(a)) ry=(Short(b)) transform={ "translate(" (Short(x)) " " (Short(y)) ") rotate(" (turn) ")" }
                 fill="none" stroke=(MARK) stroke-width="1.5" {}
-            text x=(Short(x + 4.0)) y=(Short(y - 4.0)) style={ "fill:" (MARK) ";font-size:11px;paint-order:stroke;stroke:#fff;stroke-width:2.5px" } { (mark.label) }
+            text x=(Short(x + 4.0)) y=(Short(y - 4.0)) style={ "fill:" (MARK) ";font-size:14px;paint-order:stroke;stroke:#fff;stroke-width:2.5px" } { (mark.label) }
         }
     }
 
@@ -253,7 +253,7 @@ pub fn contact(map: &Map, title: &str, regime: &[f32], shares: Option<[f64; 3]>)
         let share = shares.map_or_else(String::new, |s| format!(" {:.0} %", 100.0 * s[k]));
         (REGIMES[k + 1], format!("{name}{share}"))
     });
-    let key = boxes(grid.frame.bottom() + 50.0, &names.collect::<Vec<_>>());
+    let (key, _) = boxes(grid.frame.bottom() + 50.0, grid.paper[0], &names.collect::<Vec<_>>());
     grid.png(title, "contact by regime", (&palette, &indices), &key)
 }
 

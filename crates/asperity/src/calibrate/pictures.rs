@@ -1,7 +1,8 @@
 //! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
 
 use super::fit::{AngleFit, Fit};
-use crate::draw::chart::{Chart, Series};
+use crate::draw::chart::{Chart, Dash, Series};
+use crate::draw::palette::{LINES, VIRIDIS, interpolated};
 use asperity_calibration::collapse::{Sample, distinct};
 use asperity_calibration::fit::Data;
 use asperity_roughness::PUBLISHED_COEFFICIENT;
@@ -53,13 +54,16 @@ fn mixed(data: &Data, beta_deg: f64, share: f64) -> Chart {
 
 /// All slopes: Y = K tan²β/σ_r against X = E* tan β/σ_r at ε_r = c tan β.
 fn master(data: &Data, c: f64) -> Chart {
-    let series = data.slopes.iter().map(|(beta, samples)| {
+    // points alone: a line would join one metal with another
+    let share = |i: usize| 0.9 * i as f64 / data.slopes.len().saturating_sub(1).max(1) as f64;
+    let series = data.slopes.iter().enumerate().map(|(i, (beta, samples))| {
         let tan = beta.to_radians().tan();
         let scaled = |s: &Sample| {
             let [x, y] = point(data, tan, s, c);
             [x * tan, y * tan * tan]
         };
-        Series::line(format!("β = {beta}°"), sorted(samples.iter().map(scaled).collect())).marked()
+        let points = Series::line(format!("β = {beta}°"), samples.iter().map(scaled).collect()).marked();
+        Series { colour: Some(interpolated(&VIRIDIS, share(i))), dash: Some(Dash::Hidden), ..points }
     });
     Chart::new(format!("E* tan β/σᵣ, σᵣ at εᵣ = {c:.3} tan β"), "K tan²β/σᵣ", series)
         .titled("Loading curvature of all slopes and metals")
@@ -73,13 +77,14 @@ fn strains(angles: &[AngleFit], c: f64) -> Chart {
         slopes.map(|beta| [beta, c * beta.to_radians().tan()]).collect::<Vec<[f64; 2]>>()
     };
     let bound = |of: fn(&AngleFit) -> f64| {
-        angles.iter().filter(|a| a.determined).map(|a| [a.beta_deg, of(a)]).collect()
+        let ends = angles.iter().filter(|a| a.determined).map(|a| [a.beta_deg, of(a)]).collect();
+        Series { colour: Some(LINES[5]), dash: Some(Dash::Dashed), ..Series::line("95 % interval", ends) }
     };
     let found = angles.iter().filter_map(|a| a.representative_strain.map(|s| [a.beta_deg, s])).collect();
     let lines = [
         Series::line("least scatter", found).marked(),
-        Series::line("95 % interval, low end", bound(|a| a.low)),
-        Series::line("95 % interval, high end", bound(|a| a.high)),
+        bound(|a| a.low),
+        bound(|a| a.high),
         Series::line(format!("fit: {c:.4} tan β"), line(c)),
         Series::line(format!("published: {PUBLISHED_COEFFICIENT} tan β"), line(PUBLISHED_COEFFICIENT)),
     ];

@@ -27,7 +27,7 @@ impl Crush {
             h2 { "Curves" }
             (page::chart(&titled_chart(summary, &self.curve), &self.finding(), "Force against depth; the band is the stated error.")?)
             (page::chart(&area, "Contact against depth, loading and unloading.", "The contact, projected along the axis of the tool.")?)
-            (page::chart(&pressure, "Mean pressure against depth, loading and unloading.", "Force over contact.")?)
+            (page::chart(&pressure, "Mean pressure against depth, loading and unloading.", "Force over contact. Where few elements touch, at first touch and at the end of an unloading, it is rough.")?)
             @if let Some(svg) = section {
                 h2 { "Section at the peak" }
                 (page::drawing(

@@ -8,7 +8,7 @@ use asperity_roughness::Closure;
 use plotters::prelude::*;
 
 /// Width and height of both axes in pixels.
-const SIZE: (u32, u32) = (760, 860);
+const SIZE: (u32, u32) = (540, 680);
 /// Radius of a dot in pixels.
 const DOT: f64 = 4.0;
 

@@ -4,7 +4,7 @@
 use crate::draw::chart::{
     Axis, Chart, Dash, FINE_PIXELS, INK, Sample, Series, axes, draw, framed, rgb, titled,
 };
-use crate::draw::palette::{Colour, LINES, VIRIDIS, interpolated};
+use crate::draw::palette::{self, Colour, LINES, VIRIDIS, interpolated};
 use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::levenberg_marquardt::{Minimum, chi2};
 use asperity_identification::numbers::StressAt;
@@ -15,7 +15,7 @@ use plotters::prelude::*;
 use rayon::prelude::*;
 
 /// Width of the axes, heights of the curves and of their residuals, in pixels.
-const SIZE: (u32, [u32; 2]) = (760, [440, 220]);
+const SIZE: (u32, [u32; 2]) = (540, [380, 240]);
 /// Cells of the map along each unknown.
 const CELLS: usize = 61;
 
@@ -72,10 +72,9 @@ impl Drawn {
     /// A text for a person where the drawing library fails.
     pub fn curves(&self) -> Result<String, String> {
         let (width, [upper, lower]) = SIZE;
-        let legend: Vec<(String, Sample)> = self
-            .ones
-            .iter()
-            .enumerate()
+        let drawn = self.ones.iter().enumerate();
+        let legend: Vec<(String, Sample)> = drawn
+            .filter(|(_, one)| !(one.measured.is_empty() && one.left.is_empty()))
             .map(|(i, one)| (one.name.clone(), Sample::Line(rgb(colour(i)), [1, 0])))
             .collect();
         let forces = self.forces();
@@ -118,7 +117,8 @@ impl Drawn {
             let measured = Series::line(format!("{}, measured", one.name), measured);
             [
                 Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..measured }.marked(),
-                Series { colour: Some(LINES[(i + 1) % LINES.len()]), ..fitted },
+                // over the dots, in a colour of no measurement
+                Series { colour: Some(palette::INK), ..fitted },
             ]
         });
         Some(Chart::new("Distance from the axis r (µm)", "Height z (µm)", lines).titled("The imprint"))
@@ -289,8 +289,8 @@ pub fn stress_strain(rows: &[StressAt]) -> Chart {
         |pick: fn(&StressAt) -> f64| rows.iter().map(|r| [100.0 * r.plastic_strain, pick(r)]).collect();
     let series = [
         Series { band: upper.chain(lower).collect(), ..Series::line("best fit", line) },
-        Series { colour: Some(LINES[5]), ..Series::line("95 %, upper", ends(|r| r.high_MPa)) },
-        Series { colour: Some(LINES[5]), ..Series::line("95 %, lower", ends(|r| r.low_MPa)) },
+        Series { colour: Some(LINES[5]), ..Series::line("95 % interval", ends(|r| r.high_MPa)) },
+        Series { colour: Some(LINES[5]), ..Series::line("95 % interval", ends(|r| r.low_MPa)) },
     ];
     Chart::new("Plastic strain (%)", "True stress (MPa)", series)
         .titled("The stress-strain curve that fits, with its 95 % band")

@@ -98,58 +98,65 @@ pub fn travel_chart(curves: impl IntoIterator<Item = (Closure, [Vec<[f64; 2]>; 2
     Chart::new("travel of the plane from first touch (µm)", "nominal pressure (MPa)", series).titled(title)
 }
 
-/// Share of the contact area that the histogram shows: the few pixels beyond it would leave the rest one
-/// spike.
+/// Share of the contact area that the histogram shows of each closure at least: the few pixels beyond it at
+/// either end would leave the rest one spike.
 const SHOWN_AREA: f64 = 0.99;
 
-/// Pressure over nominal pressure of each pixel in contact, with its contact area.
+/// Logarithm of pressure over nominal pressure of each pixel in contact, with its contact area, rising.
 fn pressures(one: &ClosureContact) -> Vec<(f64, f64)> {
-    let ratio = |pressure: f32| f64::from(pressure) / one.nominal;
-    match &one.body {
+    let ratio = |pressure: f32| (f64::from(pressure) / one.nominal).log10();
+    let mut found: Vec<(f64, f64)> = match &one.body {
         Body::Islands(one) => {
             one.field.pixels.iter().map(|p| (ratio(p.pressure), f64::from(p.contact))).collect()
         }
-        Body::HalfSpace(one) => {
-            one.contact.pressures.iter().filter(|p| **p > 0.0).map(|p| (ratio(*p), 1.0)).collect()
-        }
+        Body::HalfSpace(one) => one.contact.pressures.iter().map(|p| (ratio(*p), 1.0)).collect(),
         Body::Failed(_) => Vec::new(),
-    }
+    };
+    found.retain(|(ratio, area)| ratio.is_finite() && *area > 0.0);
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found
 }
 
-/// The ratio up to which [`SHOWN_AREA`] of the contact lies.
-fn shown_up_to(pressures: &[(f64, f64)]) -> f64 {
-    let mut sorted = pressures.to_vec();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let total: f64 = sorted.iter().map(|(_, area)| area).sum();
-    let mut below = 0.0;
-    let end = sorted.iter().find(|(_, area)| {
-        below += area;
-        below >= SHOWN_AREA * total
-    });
-    end.map_or(0.0, |(ratio, _)| *ratio)
+/// The ends between which [`SHOWN_AREA`] of the contact lies, as much below as above them.
+fn shown_ends(pressures: &[(f64, f64)]) -> [f64; 2] {
+    let total: f64 = pressures.iter().map(|(_, area)| area).sum();
+    let tail = 0.5 * (1.0 - SHOWN_AREA);
+    [tail, 1.0 - tail].map(|share| {
+        let mut below = 0.0;
+        let end = pressures.iter().find(|(_, area)| {
+            below += area;
+            below >= share * total
+        });
+        end.or(pressures.last()).map_or(0.0, |(ratio, _)| *ratio)
+    })
 }
 
-/// Share of the contact area per step of pressure, against pressure over nominal pressure.
+/// Share of the contact area per step of the logarithm of pressure, against pressure over nominal pressure:
+/// closures differ in their pressures by factors.
 fn histogram(contacts: &[ClosureContact]) -> Chart {
     const STEPS: usize = 60;
     let loaded = contacts.iter().filter(|one| one.nominal > 0.0);
     let found: Vec<_> = loaded
         .map(|one| (one.closure, pressures(one)))
-        .filter(|(_, pressures)| pressures.iter().any(|(_, area)| *area > 0.0))
+        .filter(|(_, pressures)| !pressures.is_empty())
         .collect();
-    let most = found.iter().map(|(_, pressures)| shown_up_to(pressures)).fold(0.0, f64::max);
-    let width = if most > 0.0 { most / (STEPS as f64 - 0.5) } else { 1.0 };
+    let ends = found.iter().map(|(_, pressures)| shown_ends(pressures));
+    let [low, high] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    // a step at either end holds what lies on it
+    let width = if high > low { (high - low) / (STEPS as f64 - 1.0) } else { 0.1 };
+    let start = low - 0.5 * width;
     let series = found.iter().map(|(closure, pressures)| {
         let total: f64 = pressures.iter().map(|(_, area)| area).sum();
         let mut bins = [0.0; STEPS];
-        for (ratio, area) in pressures {
-            if let Some(bin) = bins.get_mut((ratio / width) as usize) {
+        for (ratio, area) in pressures.iter().filter(|(ratio, _)| *ratio >= start) {
+            if let Some(bin) = bins.get_mut(((ratio - start) / width) as usize) {
                 *bin += area;
             }
         }
-        let points = bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]);
+        let points = bins.iter().enumerate().map(|(i, b)| [low + i as f64 * width, 100.0 * b / total]);
         Series::of_closure(*closure, false, points.collect())
     });
-    Chart::new("pressure over nominal pressure", format!("contact area per step of {width:.2} (%)"), series)
+    let share = format!("contact area per step of {width:.2} (%)");
+    Chart::new("log₁₀ of pressure over nominal pressure", share, series)
         .titled("Distribution of the pressure over the contact; of each closure at least 99 % of its area")
 }

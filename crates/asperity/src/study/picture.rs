@@ -7,15 +7,13 @@
 use super::row::Run;
 use super::vary::Vary;
 use crate::draw::chart::{
-    self, Axis, Chart, FINE_PIXELS, Failure, INK, Paper, Sample, Series, axes, framed, rgb,
+    self, Axis, Chart, FINE_PIXELS, Failure, INK, Paper, SIZE, Sample, Series, axes, framed, rgb,
 };
 use crate::draw::palette::{VIRIDIS, interpolated};
 use plotters::prelude::*;
 
 /// Most lines that a person can tell apart.
 const LINES: usize = 7;
-/// Width and height of the axes in pixels.
-const SIZE: (u32, u32) = (760, 500);
 
 /// The number and the unit of a value.
 fn number(value: &str) -> Option<(f64, String)> {
@@ -24,6 +22,13 @@ fn number(value: &str) -> Option<(f64, String)> {
     let mut found =
         ends.filter_map(|end| Some((value[..end].parse().ok()?, value[end..].trim().to_string())));
     found.next().filter(|(number, _): &(f64, String)| number.is_finite())
+}
+
+/// A value with four digits at most.
+fn short(value: &str) -> String {
+    let Some((number, unit)) = number(value) else { return value.into() };
+    let rounded = format!("{number:.3e}").parse().unwrap_or(number);
+    format!("{rounded} {}", unit.replace("um", "µm")).trim_end().into()
 }
 
 /// A key as an axis: the place of each run along it, and its name with its unit.
@@ -83,7 +88,7 @@ pub(super) fn draw(vary: &[Vary], runs: &[Run], column: &str) -> Result<String, 
         [] => vec![Series { label: column.into(), ..line(column, &|_| true) }],
         values => values
             .iter()
-            .map(|v| line(&format!("{} = {v}", vary[1].key), &|run| run.values[1] == *v))
+            .map(|v| line(&format!("{} = {}", vary[1].key, short(v)), &|run| run.values[1] == *v))
             .collect(),
     };
     chart::svg(&Chart::new(along[0].name.clone(), column, series))
@@ -123,8 +128,7 @@ fn dots(along: &[Along], heights: &[f64], column: &str, joined: bool) -> Result<
         let mut order: Vec<usize> = (0..heights.len()).collect();
         order.sort_by(|a, b| second.places[*a].total_cmp(&second.places[*b]));
         let shown = [0, order.len() / 4, order.len() / 2, 3 * order.len() / 4, order.len().saturating_sub(1)];
-        let mut entries: Vec<(String, Sample)> =
-            vec![(second.name.clone(), Sample::Line(rgb([255; 3]), [1, 0]))];
+        let mut entries: Vec<(String, Sample)> = vec![(second.name.clone(), Sample::Heading)];
         let picked = shown.iter().filter_map(|k| order.get(*k));
         entries.extend(picked.map(|&i| (format!("{:.4}", second.places[i]), dot(colour(i)))));
         entries

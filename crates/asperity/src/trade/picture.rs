@@ -10,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Width and height of the axes with their names in pixels.
-const SIZE: (u32, u32) = (820, 600);
+const SIZE: (u32, u32) = (540, 480);
 
 /// A knob in the legend: its name, and its mark as a polygon or star.
 struct Mark {

@@ -19,10 +19,10 @@ use raster::Raster;
 pub use section::Section;
 pub use window::Reach;
 
-/// Width of the drawing on paper.
-const WIDTH: f64 = 640.0;
+/// Width of the window on paper: the whole is so narrow that its letters stay legible on a phone.
+const WIDTH: f64 = 408.0;
 /// Dots of the contours for a unit of the drawing.
-const DOTS_PER_UNIT: f64 = 2.0;
+const DOTS_PER_UNIT: f64 = 3.0;
 /// Room for the title.
 const TITLE: f64 = 24.0;
 

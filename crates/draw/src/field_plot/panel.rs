@@ -3,16 +3,16 @@
 use super::raster::{Dot, Raster};
 use super::section::Section;
 use crate::encode::indexed_png;
-use crate::frame::{Frame, ROOM_LEFT, Short, boxes, tick};
+use crate::frame::{Frame, HEADS, ROOM_LEFT, ROOM_RIGHT, Short, boxes, tick};
 use crate::palette::{Bands, Colour, ELASTIC, ZONES};
 use crate::scale;
 use maud::{Markup, html};
 use std::fmt::Write;
 
 /// Room above a window for its heading.
-pub const HEADING: f64 = 26.0;
+pub const HEADING: f64 = 32.0;
 /// Height of the curve of the contact pressure.
-const CURVE: f64 = 110.0;
+const CURVE: f64 = 90.0;
 
 /// One drawing of the section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,11 +64,12 @@ impl Panel {
         }
         let contours = self.contours(section, raster)?;
         let outline = path(frame, section, section.mesh.surface_sides());
-        let tip = section.tip.map(|tip| frame.y(tip)).filter(|y| *y > frame.top + 16.0);
+        let tip = section.tip.map(|tip| frame.y(tip)).filter(|y| *y > frame.top + 18.0);
         let below = if lowest { 42.0 } else { 12.0 };
-        let key = if contours.boxes.is_empty() { 0.0 } else { 24.0 };
+        let width = ROOM_LEFT + frame.size[0] + ROOM_RIGHT;
+        let (key, key_height) = boxes(frame.bottom() + below + 4.0, width, &contours.boxes);
         let drawing = html! {
-            text x=(Short(ROOM_LEFT)) y="17" { (contours.heading) }
+            text x=(Short(HEADS)) y="17" { (contours.heading) }
             (frame.cut(&html! {
                 (frame.image(&contours.image))
                 @if self == Panel::Mesh { path class="thin" d=(path(frame, section, section.mesh.sides().into_iter())) {} }
@@ -80,9 +81,9 @@ impl Panel {
             }))
             (frame.axes([if section.revolved { "r (µm)" } else { "x (µm)" }, "z (µm)"], lowest))
             @if let Some(bands) = &contours.bar { (frame.bar(bands, 0.0)) }
-            (boxes(frame.bottom() + below + 4.0, &contours.boxes))
+            (key)
         };
-        Ok((drawing, frame.bottom() + below + key))
+        Ok((drawing, frame.bottom() + below + key_height))
     }
 
     fn contours(self, section: &Section, raster: &Raster) -> Result<Contours, String> {
@@ -113,18 +114,14 @@ impl Panel {
                     1 + last as u8
                 })?;
                 let least = 100.0 * bands.edges[0];
-                let heading = format!("accumulated plastic strain (%); pale: elastic, or below {least} %");
+                let heading = format!("accumulated plastic strain (%); pale: below {least} %");
                 Ok(Contours { heading, image, bar: Some(bands), boxes: Vec::new() })
             }
             Panel::ElasticZones => {
                 let names = ["never yielded", "has yielded, elastic now", "yields now"];
-                let mut boxes: Vec<_> = ZONES.into_iter().zip(names.map(String::from)).collect();
-                let mut heading =
-                    "elastic zones: contours of first yield and of the yield function".to_string();
-                if let Some(stress) = section.yield_stress {
-                    let _ = write!(heading, "; line: von Mises stress {stress} MPa");
-                    boxes.truncate(3);
-                }
+                let line = section.yield_stress.map(|stress| format!("line: von Mises stress {stress} MPa"));
+                let boxes = ZONES.into_iter().zip(names.map(String::from).into_iter().chain(line)).collect();
+                let heading = "elastic zones, by first yield and yield function".to_string();
                 let image = zones(section, raster)?;
                 Ok(Contours { heading, image, bar: None, boxes })
             }
@@ -218,7 +215,7 @@ fn pressure_curve(section: &Section, frame: &Frame) -> (Markup, f64) {
     }
     let (left, width) = (Short(ROOM_LEFT), Short(frame.size[0]));
     let drawing = html! {
-        text x=(left) y="17" { "contact pressure (MPa)" }
+        text x=(Short(HEADS)) y="17" { "contact pressure (MPa)" }
         @for p in scale::multiples(0.0, high, step) {
             path class="grid" d={ "M" (left) " " (Short(y(p))) "h" (width) } {}
             (tick(y(p), &scale::label(p, step)))
