@@ -186,7 +186,7 @@ impl Rough {
 
     /// The title of a map of one closure.
     fn map_title(&self, one: &ClosureContact) -> String {
-        format!("{}, {} closure", self.summary.surface, one.name())
+        format!("{} by {}", self.summary.surface, one.name())
     }
 
     /// The topography as topography.png, no side longer than `longest` dots.
