@@ -116,6 +116,15 @@ def test_a_topography_is_taken_with_its_units() -> None:
     assert ratio == pytest.approx(other.table["contact_area_ratio"][0], rel=1e-9)
 
 
+def test_tables_stand_for_a_scene_and_one_pixel_size_for_both() -> None:
+    scene: Any = SCENE
+    by_tables, by_scene = asperity.crush(scene), asperity.crush(asperity.Scene(**SCENE))
+    assert by_tables.summary["peak_force_N"] == by_scene.summary["peak_force_N"]
+    tables: dict[str, Any] = {"closure": "sneddon", "material": STEEL, "load": {"pressure": "50 MPa"}}
+    one, both = (asperity.press(waves(), pixel_size_um=size, **tables) for size in (1, (1.0, 1.0)))
+    assert one.table["contact_area_ratio"][0] == both.table["contact_area_ratio"][0]
+
+
 def test_wrong_input_names_its_key() -> None:
     with pytest.raises(asperity.InputError, match="axisymmetric"):
         asperity.Scene.from_toml("symmetry = 'axisymetric'")

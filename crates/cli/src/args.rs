@@ -23,7 +23,7 @@ const EXAMPLES: &str = "Examples:
   asperity crush single.toml --accuracy draft --set material.hardening_exponent=0.1
   asperity crush single.toml --set \"loading.depth=2 um\" --out out/shallow --json
   asperity mesh single.toml -o asperity.msh        for Gmsh; .vtu for ParaView
-  asperity mesh single.toml --format inp           the whole scene as a deck for CalculiX and Abaqus
+  asperity mesh single.toml --format abaqus        the whole scene as a deck for Abaqus; inp: for CalculiX
   asperity calibrate                               the representative strain from 480 cones
   asperity study single.toml --vary material.hardening_exponent=0,0.1,0.2 --vary \"loading.depth=1 um..5 um/5\"
   asperity new fit; asperity identify fit.toml     from measured curves to the metal
@@ -46,7 +46,8 @@ const CRUSH: &str = "Examples:
 const MESH: &str = "Examples:
   asperity mesh single.toml -o single.vtu          for ParaView
   asperity mesh single.toml -o single.msh          for Gmsh; a scene reads it with [mesh]
-  asperity mesh single.toml --format inp           the whole scene for CalculiX and Abaqus";
+  asperity mesh single.toml --format abaqus        the whole scene for Abaqus
+  asperity mesh single.toml --format inp           the whole scene for CalculiX";
 
 const ROUGH: &str = "Examples:
   asperity new rough && asperity rough rough.toml
@@ -55,7 +56,7 @@ const ROUGH: &str = "Examples:
 
 const JOINT: &str = "Examples:
   asperity joint surface.sur --set \"load.pressure=50 MPa\"     into out/surface: joint.csv, calculix.inp, abaqus.inp, moose.csv
-  asperity joint one.sur two.sur three.sur --like steel.toml    their mean, and how far they differ
+  asperity joint one.sur two.sur three.sur --like steel.toml    their mean and spread, not two faces of a joint
   asperity joint scene.toml --set 'thermal.conductivity=[\"50 W/(m K)\", \"50 W/(m K)\"]' --report";
 
 const SCALES: &str = "Examples:

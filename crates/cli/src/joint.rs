@@ -14,7 +14,7 @@ use std::path::PathBuf;
 /// Arguments of `asperity joint`.
 #[derive(Debug, Args)]
 pub struct Joint {
-    /// Scene (TOML) or map of heights (.sur, .x3p, …); several maps of one surface give their mean and how far they differ
+    /// Scene (TOML) or map of heights (.sur, .x3p, …); several maps of one surface give their mean and how far they differ. Of two rough faces give the sum of their heights
     #[arg(required = true)]
     pub surfaces: Vec<PathBuf>,
     /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new surface`, to the end of the metal or of the gap]

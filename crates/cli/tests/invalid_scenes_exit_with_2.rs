@@ -38,6 +38,8 @@ const TABLE: &[(&str, &str, &[&str])] = &[
     ("depth = \"5 um\"", "force = \"1 N/mm\"", &["scene.toml:16:", "plane strain"]),
     ("\"plane\"", "\"banana\"", &["scene.toml:14:", "unknown value `banana`", "plane, cone, sphere"]),
     ("\"plane\"", "\"cone\"", &["scene.toml:13:", "`slope_deg` of the cone is missing"]),
+    ("\"plane\"", "\"cone\"\nslope = 10", &["scene.toml:15:", "did you mean `slope_deg`?"]),
+    ("\"plane\"", "\"cone\"\nhalf_apex_deg = 120", &["scene.toml:15:", "not 120", "between flank and axis"]),
     ("[tool]\nshape = \"plane\"", "[tool]", &["scene.toml", "`shape` is missing"]),
     ("\"axisymmetric\"", "\"plane-strain\"", &["scene.toml", "substrate", "is missing"]),
     ("steps = 8", "steps = 0", &["scene.toml:21:", "from 1 to 10000", "not 0"]),

@@ -11,8 +11,7 @@ use maud::{Markup, PreEscaped, Render, html};
 const STYLE: &str = ".section text{font:15px \"DejaVu Sans\",system-ui,sans-serif;fill:currentColor}.section .title{font-size:16px}\
 .section .line{fill:none;stroke:currentColor;stroke-width:1}.section .thin{fill:none;stroke:#26303a;stroke-width:.5;opacity:.6}\
 .section .grid{stroke:currentColor;stroke-width:.5;opacity:.2}.section .tool{fill:#8b95a1}.section .on-tool{fill:#fff}\
-.section .area{fill:#0072b2;fill-opacity:.35;stroke:#0072b2;stroke-width:1.5}\
-.section .ruler{fill:#fff;stroke:#1e1e1e;stroke-width:1}.section .on-map{fill:#1e1e1e}.section .paper{fill:#fff;fill-opacity:.8}";
+.section .area{fill:#0072b2;fill-opacity:.35;stroke:#0072b2;stroke-width:1.5}";
 
 /// Room left of a window, for the numbers of the vertical axis.
 pub const ROOM_LEFT: f64 = 64.0;

@@ -1,4 +1,4 @@
-//! Maps of a rough surface as PNG: heights, pressure, contact by regime, with axes, scale bar and colour key.
+//! Maps of a rough surface as PNG: heights, pressure, contact by regime, with axes and colour key.
 //!
 //! A map is an SVG document around an indexed picture of its cells; the PNG is that document rendered, dot
 //! for dot.
@@ -6,7 +6,6 @@
 use super::encode::{drawing_png, indexed_png};
 use super::frame::{Frame, HEADS, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
 use super::palette::{Bands, Colour, REGIMES, interpolated};
-use super::scale;
 use crate::numbers::decimals;
 use maud::{Markup, html};
 
@@ -104,25 +103,9 @@ impl Grid {
             text x=(Short(HEADS)) y="41" { (heading) }
             (self.frame.image(&picture))
             (self.frame.axes(["x (µm)", "y (µm)"], true))
-            (self.ruler())
             (key)
         };
         drawing_png(&document(self.paper, title, &body), self.fine)
-    }
-
-    /// A bar of a round length in the lower left corner, where there is room for it.
-    fn ruler(&self) -> Markup {
-        let [width, height] = self.frame.size;
-        if width < 160.0 || height < 60.0 {
-            return html! {};
-        }
-        let length = scale::round_step(self.frame.high[0], 6.0);
-        let (on_paper, y) = (length / self.frame.high[0] * width, self.frame.bottom() - 20.0);
-        html! {
-            rect class="paper" x=(Short(ROOM_LEFT + 6.0)) y=(Short(y - 22.0)) width=(Short(on_paper.max(60.0) + 16.0)) height="36" {}
-            rect class="ruler" x=(Short(ROOM_LEFT + 14.0)) y=(Short(y)) width=(Short(on_paper)) height="5" {}
-            text class="on-map" x=(Short(ROOM_LEFT + 14.0)) y=(Short(y - 6.0)) { (scale::label(length, length)) " µm" }
-        }
     }
 
     /// An ellipse with its name beside it.

@@ -77,5 +77,9 @@ pub fn yield_stress(yield_stress: Stress, e: Stress) -> Result<(), String> {
         return Ok(());
     }
     let (e, given) = (e.in_unit("MPa"), yield_stress.in_unit("MPa"));
-    Err(format!("must be from {} to {} MPa (E/{high:e} to E/{low}), not {given} MPa", e / high, e / low))
+    Err(format!(
+        "must be from {} to {} MPa (E/{high:e} to E/{low} of E = {e} MPa), not {given} MPa",
+        e / high,
+        e / low
+    ))
 }

@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._asperity import RoughScene, Scene
-    from .keys import RoughTable, SweepTable
+    from .keys import RoughTable, SceneTable, SweepTable
 
     PathLike = str | os.PathLike[str]
+    PixelSize = float | tuple[float, float]
     Progress = Callable[[float, str], object]
 
 
@@ -37,13 +38,16 @@ def _path(path: PathLike | None) -> str | None:
     return None if path is None else os.fspath(path)
 
 
-def _scene(scene: Scene | PathLike) -> Scene:
-    """A scene, or that of a file."""
+def _scene(scene: Scene | SceneTable | PathLike) -> Scene:
+    """A scene, or that of its tables or of a file."""
+    if isinstance(scene, Mapping):
+        tables: Any = scene
+        return _asperity.Scene(**tables)
     return scene if isinstance(scene, _asperity.Scene) else _asperity.Scene.from_toml(os.fspath(scene))
 
 
 def crush(
-    scene: Scene | PathLike,
+    scene: Scene | SceneTable | PathLike,
     *,
     accuracy: str | None = None,
     out: PathLike | None = None,
@@ -51,7 +55,7 @@ def crush(
 ) -> Crush:
     """Crushes a scene.
 
-    :param scene: a scene or the path of its file.
+    :param scene: a scene, a dict of its tables, or the path of its file.
     :param accuracy: ``draft`` (5 %), ``standard`` (1 %), ``reference`` (0.2 %) or a percentage in place of the scene's.
     :param out: folder for the files of ``asperity crush``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
@@ -69,9 +73,7 @@ def crush(
         raise
 
 
-def _heights(
-    surface: Any, pixel_size_um: tuple[float, float] | None
-) -> tuple[FloatArray, tuple[float, float]]:
+def _heights(surface: Any, pixel_size_um: PixelSize | None) -> tuple[FloatArray, tuple[float, float]]:
     """Heights in µm and their pixel, of an array or of a topography of the package SurfaceTopography."""
     if callable(getattr(surface, "heights", None)) and hasattr(surface, "pixel_size"):
         metres = {
@@ -100,11 +102,12 @@ def _heights(
         raise _asperity.InputError(f"heights have {heights.ndim} dimensions: give two, the first along y")
     if pixel_size_um is None:
         raise _asperity.InputError("pixel_size_um is missing: the distance of the heights along x and y")
-    return np.ascontiguousarray(heights), pixel_size_um
+    dx, dy = np.broadcast_to(np.asarray(pixel_size_um, dtype=np.float64), 2).tolist()
+    return np.ascontiguousarray(heights), (dx, dy)
 
 
 def _surface(
-    surface: Any, pixel_size_um: tuple[float, float] | None, tables: Mapping[str, object]
+    surface: Any, pixel_size_um: PixelSize | None, tables: Mapping[str, object]
 ) -> tuple[RoughScene, FloatArray | None, tuple[float, float] | None]:
     """The scene of a surface however it is given, with heights in µm and their pixel where they are no file."""
     scene: dict[str, Any] = dict(tables)
@@ -142,7 +145,7 @@ def _are_several(surfaces: Any) -> bool:
 def press(
     heights: Any = None,
     *,
-    pixel_size_um: tuple[float, float] | None = None,
+    pixel_size_um: PixelSize | None = None,
     out: PathLike | None = None,
     progress: Progress | None = None,
     **scene: Unpack[RoughTable],
@@ -152,7 +155,7 @@ def press(
     :param heights: in µm, the first index along y, NaN or masked where nothing was measured; or a topography of the package
         SurfaceTopography; or a :class:`RoughScene`; or the path of a map or of a scene (``.toml``); absent where the tables name
         or generate a surface.
-    :param pixel_size_um: distance of the heights along x and y.
+    :param pixel_size_um: distance of the heights along x and y, or one for both.
     :param out: folder for the files of ``asperity rough``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene: ``closure="all"``, ``material={...}``, ``load={...}``; with heights,
@@ -165,7 +168,7 @@ def press(
 def joint(
     heights: Any = None,
     *,
-    pixel_size_um: tuple[float, float] | None = None,
+    pixel_size_um: PixelSize | None = None,
     out: PathLike | None = None,
     progress: Progress | None = None,
     **scene: Unpack[RoughTable],
@@ -174,7 +177,7 @@ def joint(
 
     :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`; or a list of
         them, which are maps of one surface and give their mean and how far they differ.
-    :param pixel_size_um: distance of the heights along x and y.
+    :param pixel_size_um: distance of the heights along x and y, or one for both.
     :param out: folder for the files of ``asperity joint``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene: ``material={...}``, ``load={...}`` (without it to the end of the metal or of the gap),
@@ -193,7 +196,7 @@ def joint(
 def scales(
     heights: Any = None,
     *,
-    pixel_size_um: tuple[float, float] | None = None,
+    pixel_size_um: PixelSize | None = None,
     out: PathLike | None = None,
     progress: Progress | None = None,
     **scene: Unpack[RoughTable],
@@ -202,7 +205,7 @@ def scales(
 
     :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`; of a list of
         them the first is looked at, and the others are repeated measurements of it, which tell its noise.
-    :param pixel_size_um: distance of the heights along x and y.
+    :param pixel_size_um: distance of the heights along x and y, or one for both.
     :param out: folder for the files of ``asperity scales``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene: ``material={...}``, ``load={...}``, ``scales={"tip_radius": "2 um"}``.
@@ -219,7 +222,7 @@ def scales(
 def extract(
     heights: Any = None,
     *,
-    pixel_size_um: tuple[float, float] | None = None,
+    pixel_size_um: PixelSize | None = None,
     separation: str | None = None,
     share: float | None = None,
     hills: float | None = None,
@@ -237,7 +240,7 @@ def extract(
     """Finds the asperities of a map, the bodies that stand for the highest of them, and holds the closures against crushing them.
 
     :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`.
-    :param pixel_size_um: distance of the heights along x and y.
+    :param pixel_size_um: distance of the heights along x and y, or one for both.
     :param separation: islands above this separation from the mean plane, such as ``"1 um"``.
     :param share: islands above the plane that this share of the points is above; 0.1 where nothing is said.
     :param hills: hills of ISO 25178-2 that rise by at least this share of the height.
@@ -287,7 +290,7 @@ def calibrate(
 
 
 def trade(
-    scene: Scene | PathLike,
+    scene: Scene | SceneTable | PathLike,
     *,
     combinations: int = 30,
     out: PathLike | None = None,
@@ -295,7 +298,7 @@ def trade(
 ) -> Trade:
     """Measures what accuracy costs on a scene, knob by knob.
 
-    :param scene: a scene or the path of its file.
+    :param scene: a scene, a dict of its tables, or the path of its file.
     :param combinations: how many settings differ in everything at once.
     :param out: folder for the files of ``asperity trade``.
     :param progress: called with the share that is done and a text.
@@ -340,7 +343,7 @@ def study(
     seed: int = 0,
     set: Mapping[str, Any] | None = None,  # noqa: A002
     heights: Any = None,
-    pixel_size_um: tuple[float, float] | None = None,
+    pixel_size_um: PixelSize | None = None,
     curves: bool = False,
     show: str | None = None,
     shard: str | None = None,

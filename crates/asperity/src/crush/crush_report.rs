@@ -130,6 +130,19 @@ impl Crush {
                 line("Share of the work returned", "elastic_fraction", 100.0, " %", returned),
             ]);
         }
+        if self.summary.oliver_pharr.is_some() {
+            let read = |name: &str, key: &str, unit: &str, error: Option<&str>| {
+                let value = numbers.shown(&format!("/oliver_pharr/{key}"), 1.0, unit);
+                let error = error.map(|key| numbers.error(&format!("/errors/{key}"), ""));
+                vec![html! { (name) }, value, error.unwrap_or_default()]
+            };
+            let of_area = "Hardness: force over the contact area at the peak";
+            rows.extend([
+                read(of_area, "true_hardness_MPa", " MPa", Some("mean_pressure")),
+                read("Hardness by Oliver and Pharr", "hardness_MPa", " MPa", None),
+                read("Reduced modulus by Oliver and Pharr", "reduced_modulus_GPa", " GPa", None),
+            ]);
+        }
         rows.push(line("Energy-balance error", "energy_balance_error", 100.0, " % of the work", None));
         let caption =
             "Errors are bounds against the limit of fine meshes and steps, meant to hold in 95 % of scenes.";

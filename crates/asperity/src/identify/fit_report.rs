@@ -38,7 +38,7 @@ impl Identification {
             h2 { "Numbers" }
             (page::table(
                 "What was sought, with 95 % intervals by the fit (how often they held for known metals: page Metals found again of the book).",
-                &["quantity", "value", "95 % interval", "do the measurements tell it"],
+                &["quantity", "value", "95 % interval", "identifiable"],
                 &parameters,
             ))
             @if !self.decided.is_empty() {

@@ -197,7 +197,7 @@ impl Identification {
             self.runs, self.residual.chi2, self.residual.degrees_of_freedom
         );
         if self.residual.fits {
-            text += "\nhand on   asperity crush scene.toml --metal fit.json takes this metal; material.toml is its [material]";
+            text += "\nuse it    asperity crush scene.toml --metal fit.json takes this metal; material.toml is its [material]";
         }
         text
     }

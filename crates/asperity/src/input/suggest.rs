@@ -10,7 +10,9 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
         let starts = word.len() > 2 && (c.starts_with(&word) || word.starts_with(**c));
         starts || distance(&word, c) <= 1 + longer / 4
     };
-    candidates.iter().filter(near).min_by_key(|c| distance(&word, c)).copied()
+    // what begins as the word does was meant before what looks like it: slope_deg before shape
+    let longer_word = |c: &&&str| word.len() > 2 && c.starts_with(&word);
+    candidates.iter().filter(near).min_by_key(|c| (!longer_word(c), distance(&word, c))).copied()
 }
 
 /// Keys that went, each with a key of the table it stood in, and what to do.

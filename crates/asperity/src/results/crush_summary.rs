@@ -3,8 +3,8 @@
 use crate::error::{Error, InputError};
 use crate::input::toml_file::LARGEST_FILE;
 use crate::results::columns::{Described, Unit, columns, named, symmetry_of, unnamed};
-use crate::results::numbers::four_decimals;
-use crate::results::units::per_length;
+use crate::results::numbers::{four_decimals, with_digits};
+use crate::results::units::{MEGAPASCAL, per_length};
 use asperity_formats::memory::read_file;
 use asperity_simulation::record::rows::{Errors, ErrorsAlong, OliverPharr, Summary as Numbers};
 use asperity_simulation::refine::work_to_keep;
@@ -353,6 +353,13 @@ impl Summary {
                 shown(elastic, Unit::Energy),
                 shown(self.total_work, Unit::Energy),
                 100.0 * fraction
+            );
+        }
+        if let Some(read) = &self.oliver_pharr {
+            let [over_area, by_stiffness] =
+                [read.true_hardness, read.hardness].map(|p| with_digits(p / MEGAPASCAL, 4));
+            text += &format!(
+                "hardness  {over_area} MPa, force over contact area; by Oliver and Pharr {by_stiffness} MPa\n"
             );
         }
         text += &format!(

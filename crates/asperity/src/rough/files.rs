@@ -186,8 +186,7 @@ impl Rough {
 
     /// The title of a map of one closure.
     fn map_title(&self, one: &ClosureContact) -> String {
-        let word = if one.closure.is_half_space() { "" } else { " closure" };
-        format!("{}, {}{word}", self.summary.surface, one.name())
+        format!("{} by {}", self.summary.surface, one.name())
     }
 
     /// The topography as topography.png, no side longer than `longest` dots.

@@ -86,6 +86,7 @@ impl Rough {
                 at("contact_area_ratio", 100.0, " %"),
                 corrected,
                 at("mean_pressure_MPa", 1.0, ""),
+                at("plastic_share", 100.0, " %"),
                 at("separation_um", 1.0, ""),
                 at("max_pressure_over_nominal", 1.0, ""),
                 at("area_over_half_space", 1.0, ""),
@@ -95,9 +96,10 @@ impl Rough {
         let rows: Vec<_> = self.summary.closures.iter().enumerate().map(row).collect();
         let head = [
             "closure",
-            "true contact",
-            "corrected for pixels",
-            "mean pressure on it, MPa",
+            "contact of whole pixels",
+            "true contact, corrected for pixels",
+            "mean pressure on whole pixels, MPa",
+            "plastic share of the contact",
             "separation, µm",
             "largest over nominal pressure",
             "area over half-space",

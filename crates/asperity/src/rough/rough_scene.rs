@@ -64,7 +64,8 @@ impl RoughScene {
             scene.coefficient = Some(std::path::absolute(&known).unwrap_or(known));
         }
         let text = to_toml(&RoughScene::plain(&scene)).map_err(InputError::new)?;
-        let mut read = TomlFile::parse(&path.with_extension(""), text, overrides).map(RoughScene::of_file)?;
+        let file = TomlFile::parse(&path.with_extension(""), text, overrides)?;
+        let mut read = RoughScene::of_file(file.called(format!("scene of {}", path.display())));
         if scene.custom.is_some() {
             (read.scene.closure, read.scene.custom) = (scene.closure, scene.custom);
         }

@@ -19,18 +19,18 @@ row! {
         ra_um: f64 = surface.parameters.sa / MICROMETRE,
         /// atan of the mean |∇h|, degrees.
         beta_deg: f64 = surface.parameters.beta_deg(),
-        /// Load over contact area, MPa; none without contact.
+        /// Load over contact area, MPa; none without contact. On a half-space over that of whole pixels: load over the corrected area is the nominal pressure over `contact_area_ratio_corrected`.
         mean_pressure_MPa: Option<f64> = one.mean_pressure().map(|p| p / MEGAPASCAL),
         /// Contact area over nominal area; NaN where `status` says why.
         #[serde(deserialize_with = "nan_for_null")]
         contact_area_ratio: f64 = one.area_ratio().unwrap_or(f64::NAN),
         /// Elastic pressure of the closure at the mean slope over hardness (eq. (13)).
         plasticity_index: Option<f64> = one.plasticity_index,
-        /// Elastic share.
+        /// Share of the contact area with an elastic pressure: of islands by their slope, of a half-space pixels below its limit of pressure.
         elastic_share: Option<f64> = share(one, 0),
-        /// Elastoplastic share.
+        /// Share of it on islands between both; 0 on a half-space.
         elastoplastic_share: Option<f64> = share(one, 1),
-        /// Plastic share.
+        /// Share of it with a fully plastic pressure; of a half-space pixels at the limit.
         plastic_share: Option<f64> = share(one, 2),
         /// Largest pressure on a pixel over nominal pressure.
         max_pressure_over_nominal: Option<f64> = one.peak_ratio().filter(|_| one.area_ratio() > Some(0.0)),

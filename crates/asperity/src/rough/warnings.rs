@@ -147,7 +147,7 @@ fn tilt(surface: &Surface, scene: &Scene) -> Option<String> {
     let share = 1.0 - level.parameters.sq / surface.parameters.sq;
     (share > MAX_TILT_SHARE).then(|| {
         format!(
-            "the mean plane of the map carries {:.1} % of Sq: it is tilted, not rough; surface.level = \"plane\" takes the tilt out",
+            "the mean plane of the map carries {:.1} % of Sq: it is tilted, not rough; surface.level = \"plane\" removes the tilt",
             100.0 * share
         )
     })

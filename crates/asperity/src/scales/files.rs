@@ -38,8 +38,7 @@ impl Scales {
     /// The result for a person: the half-spaces by scale, the verdicts, the sentence.
     pub fn text(&self) -> String {
         let mut text = read_as(&self.summary.understood);
-        text +=
-            "cut-off um, rms slope, half-space: A/A0 %, mean MPa, 99 % MPa, gap um, leak x m3, plastic %\n";
+        text += "cut-off um, rms slope, half-space: A/A0 %, mean MPa, 99 % MPa, gap um, leak x m3, load on plastic slopes %\n";
         let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
         for row in self.rows.iter().filter(|row| row.mean_gap_um.is_some()) {
             let [cutoff, slope] = [row.cutoff_um, row.rms_slope].map(|v| with_digits(v, 4));

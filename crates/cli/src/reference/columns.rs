@@ -72,7 +72,7 @@ pub fn page() -> String {
     text += &of_crush::<SurfacePoint>(
         "surface_NNNN.csv",
         "the free surface, from the axis outward, with `[output] fields`; `surfaces.csv` holds those of all increments, with the number \
-         of the increment first",
+         of the increment first. After unloading the last one is the imprint (`every = 1000` writes little else)",
     );
     text += &format!("{FOLDER}\n\n## asperity calibrate\n\n");
     text += &of_cases();

@@ -332,7 +332,10 @@ impl SurfaceScene {
             (None, None) => {
                 let message = "the file does not name the unit of its heights: add height_unit to [surface], which is \"nm\", \
                                \"um\", \"mm\" or \"m\", or --set surface.height_unit=UNIT";
-                return error("surface", message);
+                let unsaid = matches!(measured.spacing, Spacing::Unknown | Spacing::Numbers(_));
+                let pixel = without_pixel(measured.spacing).replacen("the file", "it also", 1);
+                let both = unsaid && self.pixel_size.is_none();
+                return error("surface", if both { format!("{message}; {pixel}") } else { message.into() });
             }
         };
         let said = match measured.spacing {
@@ -342,8 +345,9 @@ impl SurfaceScene {
         };
         let pixel = match (said, self.pixel_size.map(|p| p.map(|l| l.0))) {
             (Some([x, y]), Some([a, b])) if !(self.override_file || same(x, a) && same(y, b)) => {
+                let [x, y, a, b] = [x, y, a, b].map(|side| rounded(side * 1e6, 7));
                 let message = format!(
-                    "the file has pixels of {x:?} x {y:?} m, the scene says {a:?} x {b:?} m: remove pixel_size, or set \
+                    "the file has pixels of {x} x {y} um, the scene says {a} x {b} um: remove pixel_size, or set \
                      override = true"
                 );
                 return error("surface.pixel_size", message);

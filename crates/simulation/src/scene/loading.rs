@@ -101,7 +101,11 @@ impl Loading {
             (Some(depth), None) => Ok(Target::Depth(depth.0)),
             (None, Some(ToolForce::Total(force))) => Ok(Target::Force(force.0)),
             (None, Some(ToolForce::PerLength(force))) => Ok(Target::Force(force.0)),
-            (Some(_), Some(_)) => Err(error("force", "does not go with `depth`: remove one of the two")),
+            (Some(_), Some(_)) => {
+                let message = "does not go with `depth`: remove one of the two; --set \"loading={force='4 N', unload=true}\" \
+                               replaces the whole table";
+                Err(error("force", message))
+            }
             (None, None) => Err(error(
                 "",
                 "set exactly one of `depth` or `force`, for example depth = \"5 um\" or force = \"4 N\"",

@@ -57,15 +57,21 @@ pub(super) fn not_negative(path: &str, what: &str, value: Option<Length>) -> Che
     }
 }
 
-/// An angle in degrees strictly between flat and upright, or an error.
+/// A slope in degrees strictly between flat and upright, or an error.
 pub(super) fn slope(path: &str, degrees: Option<f64>) -> Check {
+    angle(path, "the slope", degrees, "it is the angle between flank and base plane")
+}
+
+/// The angle between flank and axis of a cone, or an error.
+pub(super) fn half_apex(path: &str, degrees: Option<f64>) -> Check {
+    angle(path, "half the apex angle", degrees, "it is the angle between flank and axis")
+}
+
+fn angle(path: &str, what: &str, degrees: Option<f64>, meaning: &str) -> Check {
     match degrees {
-        Some(d) if !(d > 0.0 && d < 90.0) => Err(error(
-            path,
-            format!(
-                "the slope must be above 0 and below 90 degrees, not {d}: it is the angle between flank and base plane"
-            ),
-        )),
+        Some(d) if !(d > 0.0 && d < 90.0) => {
+            Err(error(path, format!("{what} must be above 0 and below 90 degrees, not {d}: {meaning}")))
+        }
         _ => Ok(()),
     }
 }

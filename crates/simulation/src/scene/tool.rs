@@ -4,7 +4,7 @@ use super::SceneError;
 use super::area_function::AreaFunction;
 use super::friction::Friction;
 use super::measured::{self, Points};
-use super::messages::{Check, error, inside, length, not_negative, positive, slope};
+use super::messages::{Check, error, half_apex, inside, length, not_negative, positive, slope};
 use asperity_material::units::{Compliance, Length, Stress};
 use asperity_material::{Elastic, range, refuse_custom, write_custom};
 use asperity_mesh::outline::Outline;
@@ -329,7 +329,7 @@ impl Tool {
 
     pub(super) fn check(&self) -> Check {
         slope("slope_deg", self.slope_deg)?;
-        slope("half_apex_deg", self.half_apex_deg)?;
+        half_apex("half_apex_deg", self.half_apex_deg)?;
         not_negative("tip_radius", "the tip radius", self.tip_radius)?;
         not_negative("tolerance", "the tolerance", self.tolerance)?;
         self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))?;

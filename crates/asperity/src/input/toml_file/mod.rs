@@ -89,6 +89,13 @@ impl<T> TomlFile<T> {
         stem.map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
     }
 
+    /// The same file with another name in its messages: that of a text which lies in no file.
+    #[must_use]
+    pub fn called(mut self, name: String) -> Self {
+        self.sources.name = name;
+        self
+    }
+
     /// A path of the file, which is relative to its folder.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         path_beside(&self.path, path)
@@ -339,7 +346,8 @@ fn put<'a>(
             let len = array.len();
             let index = key.parse::<usize>().ok().filter(|&i| i <= len).ok_or_else(|| {
                 format!(
-                    "the table to the left of `{key}` is a list: give a number from 0 to {len} in brackets"
+                    "`{key}` is asked of a list of {len} tables: name one by its number in brackets, as in [0].{key}; \
+                     [{len}] adds one"
                 )
             })?;
             if index == len {
