@@ -143,23 +143,23 @@ pub struct FitCurve {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unknown: Vec<Nuisance>,
     /// The imprint that was left, of a cone or a ball: a profile with columns such as r_um,z_um (r from the axis, z up, 0 on
-    /// the far field), or a map that says its units; or a table with its noise.
+    /// the far field), or a map; or a table with its noise and what the file does not say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub imprint: Option<FitImprint>,
 }
 
-/// The imprint of a measurement: its file, or the file with its noise.
+/// The imprint of a measurement: its file, or the file with what is to be said of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FitImprint {
     /// Its file.
     File(PathBuf),
-    /// Its file and its noise.
+    /// Its file, its noise, its units.
     Table(ImprintTable),
 }
 
-/// The file of an imprint and its noise.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// The file of an imprint, its noise and what it does not say itself.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImprintTable {
     /// Profile or map, relative to the fit file.
@@ -170,15 +170,43 @@ pub struct ImprintTable {
     /// Distance over which heights are off alike, that of roughness or of the stylus; absent: from the far field.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub correlation_length: Option<Length>,
+    /// Distance of the points of a map along x and y, or one for both, where the file does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pixel_size: Option<ImprintPixel>,
+    /// Unit of the heights of a map, where the file does not say.
+    #[schemars(example = &"nm")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<String>,
+    /// True where the heights of the file count down, so that the imprint has positive ones.
+    #[serde(default)]
+    pub z_down: bool,
+}
+
+/// Distance of the points of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ImprintPixel {
+    /// Along both sides.
+    Both(Length),
+    /// Along x and along y.
+    Each([Length; 2]),
+}
+
+impl ImprintPixel {
+    /// Along x and y, m.
+    pub fn metres(self) -> [f64; 2] {
+        match self {
+            ImprintPixel::Both(size) => [size.0; 2],
+            ImprintPixel::Each(sizes) => sizes.map(|size| size.0),
+        }
+    }
 }
 
 impl FitImprint {
-    /// The file with what is stated of its noise.
+    /// The file with what is said of it.
     pub fn table(&self) -> ImprintTable {
         match self {
-            FitImprint::File(file) => {
-                ImprintTable { file: file.clone(), noise: None, correlation_length: None }
-            }
+            FitImprint::File(file) => ImprintTable { file: file.clone(), ..ImprintTable::default() },
             FitImprint::Table(table) => table.clone(),
         }
     }

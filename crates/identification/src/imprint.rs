@@ -33,6 +33,9 @@ const LEVELLING_SHARE: f64 = 0.005;
 /// Contact radii within which an imprint is a hole, and the share of the depth that it has at least there.
 const INNER_RADII: f64 = 0.3;
 const LEAST_DEPTH_SHARE: f64 = 0.05;
+/// Least radius of a ring over that of the far field: about a patch of roughness, which a smaller ring does
+/// not average.
+const LEAST_RING_SHARE: f64 = 0.01;
 /// Points that are kept of a profile.
 const KEPT_POINTS: usize = 90;
 /// Farthest place that is compared, contact radii: that to which the computed profiles reach.
@@ -60,6 +63,9 @@ pub struct Imprint {
     pub correlation_length: f64,
     /// Degrees of freedom of the noise where the far field tells it; `None` where it is stated or assumed.
     pub noise_freedom: Option<f64>,
+    /// Distance from the axis (m) at which heights that are means over rings have that noise: of a map whose
+    /// far field tells it; `None` where all heights have it.
+    pub ring: Option<f64>,
     /// Remarks.
     pub notes: Vec<String>,
 }
@@ -74,11 +80,17 @@ pub struct StatedNoise {
 }
 
 impl Imprint {
-    /// Makes `points` (place and height, m) ready for an imprint of about the contact radius `radius`.
+    /// Makes `points` (place and height, m) ready for an imprint of about the contact radius `radius`; they
+    /// are those of one line, or `are_means` over rings of a map.
     ///
     /// # Errors
     /// The fault of the profile, with a way out.
-    pub fn new(points: &[[f64; 2]], radius: f64, depth: f64, stated: StatedNoise) -> Result<Imprint, String> {
+    pub fn new(
+        (points, are_means): (&[[f64; 2]], bool),
+        radius: f64,
+        depth: f64,
+        stated: StatedNoise,
+    ) -> Result<Imprint, String> {
         let mut points: Vec<[f64; 2]> =
             points.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -103,7 +115,7 @@ impl Imprint {
         let middle = inner.iter().sum::<f64>() / inner.len() as f64;
         if middle.is_nan() || middle >= -LEAST_DEPTH_SHARE * depth {
             return Err(format!(
-                "lies about the axis at {:.4} um on average, and not below 0: heights z count up from the far field, the imprint lies below it, places r from its middle; turn their sign, or shift them",
+                "lies about the axis at {:.4} um on average, and not below 0: heights z count up from the far field, the imprint lies below it, places r from its middle; where they count down say imprint = {{ file = …, z_down = true }}",
                 1e6 * middle
             ));
         }
@@ -121,9 +133,16 @@ impl Imprint {
             noise: stated.noise.unwrap_or(told.noise).max(MIN_NOISE_SHARE * depth),
             correlation_length: stated.correlation_length.unwrap_or(told.correlation_length),
             noise_freedom: far.filter(|_| stated.noise.is_none()).map(|far| far.freedom),
+            ring: far.filter(|_| are_means && stated.noise.is_none()).map(|far| far.place),
             points,
             notes,
         })
+    }
+
+    /// Noise at `place` over that of the far field: a ring holds as many patches of roughness as it is long,
+    /// so that the variance of its mean is as the inverse of its radius.
+    fn of_a_ring(&self, place: f64) -> f64 {
+        self.ring.map_or(1.0, |ring| (ring / place.abs().max(LEAST_RING_SHARE * ring)).sqrt())
     }
 
     /// Covariance of the heights over `depth` by noise and levelling, and what an error of the finite
@@ -139,7 +158,7 @@ impl Imprint {
                 _ => f64::from(u8::from(same)),
             };
             let levelling = LEVELLING_SHARE.powi(2) * (1.0 + a * b / (radius * radius));
-            (self.noise / depth).powi(2) * together + levelling
+            (self.noise / depth).powi(2) * self.of_a_ring(a) * self.of_a_ring(b) * together + levelling
         });
         let size = |place: f64| 1.0 + (RIM_FACTOR - 1.0) * alike(place.abs() / radius - 1.0, RIM_RADII);
         // on both sides of the axis the finite elements are off alike
@@ -172,12 +191,14 @@ struct FarField {
     correlation_length: f64,
     /// Degrees of freedom of the standard deviation.
     freedom: f64,
+    /// Mean distance from the axis, m.
+    place: f64,
 }
 
 /// That of a profile; `None` of too few points.
 fn far_field(points: &[[f64; 2]], radius: f64) -> Option<FarField> {
     let mut squares = 0.0;
-    let (mut products, mut pairs, mut count, mut spacing) = (0.0, 0.0, 0, 0.0);
+    let (mut products, mut pairs, mut count, mut spacing, mut places) = (0.0, 0.0, 0, 0.0, 0.0);
     for side in [-1.0, 1.0] {
         let far: Vec<[f64; 2]> =
             points.iter().copied().filter(|p| side * p[0] > FAR_RADII * radius).collect();
@@ -191,6 +212,7 @@ fn far_field(points: &[[f64; 2]], radius: f64) -> Option<FarField> {
         products += left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
         pairs += (left.len() - 1) as f64;
         spacing += far[far.len() - 1][0] - far[0][0];
+        places += far.iter().map(|p| p[0].abs()).sum::<f64>();
         count += far.len();
     }
     if count < MIN_FAR_POINTS || squares <= 0.0 {
@@ -202,7 +224,8 @@ fn far_field(points: &[[f64; 2]], radius: f64) -> Option<FarField> {
     let chance = 2.0 / (count as f64).sqrt();
     let correlation_length =
         if correlation > chance { -spacing / pairs / correlation.min(0.98).ln() } else { 0.0 };
-    Some(FarField { noise: (squares / freedom).sqrt(), correlation_length, freedom })
+    let place = places / count as f64;
+    Some(FarField { noise: (squares / freedom).sqrt(), correlation_length, freedom, place })
 }
 
 /// The numbers of an imprint from `points` (r, z) of the surface after unloading and the contact `radius`
@@ -299,13 +322,31 @@ mod tests {
             (0..reach).map(|i| 0.1 * f64::from(i)).map(|r| [1e-6 * r, factor * 1e-6 * surface(r)]).collect()
         };
         let refused = |points: &[[f64; 2]], word: &str| {
-            let error = Imprint::new(points, 3e-6, 1e-6, StatedNoise::default()).unwrap_err();
+            let error = Imprint::new((points, false), 3e-6, 1e-6, StatedNoise::default()).unwrap_err();
             assert!(error.contains(word), "{error}");
         };
-        refused(&points(-1.0, 90), "turn their sign");
+        refused(&points(-1.0, 90), "z_down = true");
         refused(&points(1.0, 25), "three radii");
         refused(&points(1.0, 4), "too few");
-        let imprint = Imprint::new(&points(1.0, 45), 3e-6, 1e-6, StatedNoise::default()).unwrap();
+        let imprint = Imprint::new((&points(1.0, 45), false), 3e-6, 1e-6, StatedNoise::default()).unwrap();
         assert!(imprint.notes[0].contains("state it"), "{:?}", imprint.notes);
+    }
+
+    /// A ring of a quarter of the far radius has a quarter of its patches, hence twice the noise;
+    /// a line has the same everywhere, and so has noise that was stated.
+    #[test]
+    fn the_mean_over_a_small_ring_scatters_more() {
+        let points: Vec<[f64; 2]> = (0..90)
+            .map(|i| (0.1 * f64::from(i), if i % 2 == 0 { 1e-9 } else { -1e-9 }))
+            .map(|(r, rough)| [1e-6 * r, 1e-6 * surface(r) + rough])
+            .collect();
+        let noise = |are_means: bool, stated: StatedNoise| {
+            let imprint = Imprint::new((&points, are_means), 3e-6, 1e-6, stated).unwrap();
+            let ring = imprint.ring.unwrap_or(7e-6);
+            imprint.of_a_ring(0.25 * ring) / imprint.of_a_ring(ring)
+        };
+        assert!((noise(true, StatedNoise::default()) - 2.0).abs() < 1e-12);
+        assert_eq!(noise(false, StatedNoise::default()), 1.0);
+        assert_eq!(noise(true, StatedNoise { noise: Some(1e-9), correlation_length: None }), 1.0);
     }
 }

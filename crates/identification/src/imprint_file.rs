@@ -1,8 +1,12 @@
 //! Files of imprints: a profile (`r_um,z_um`), or a map, of which the radial mean about its centre is taken.
+//!
+//! Instruments write them as they like: a line that begins at its end and is tilted, a list of points for a
+//! map, heights that count down. What a file does not say is [asked](Reading) of its user.
 
 use asperity_formats::dimension::Dimension;
 use asperity_formats::surface::{self, Measured, Request, Spacing};
 use asperity_formats::text::{Asked, Quantity, read_series};
+use asperity_formats::units::Length;
 use asperity_numerics::least_squares;
 use std::path::Path;
 
@@ -18,9 +22,39 @@ const PLACE: Quantity = Quantity {
 const HEIGHT: Quantity = Quantity {
     name: "height z",
     dimension: Dimension::Length,
-    called: &["z", "height", "profile", "hohe", "hoehe", "profil", "hauteur", "altezza", "altura"],
+    called: &[
+        "z",
+        "height",
+        "profile",
+        "hohe",
+        "hoehe",
+        "profil",
+        "hauteur",
+        "altezza",
+        "altura",
+        "depth",
+        "tiefe",
+        "profondeur",
+        "profondita",
+        "profundidad",
+    ],
     example: "z_um",
 };
+
+/// The other place of a point of a map.
+const OTHER_PLACE: Quantity =
+    Quantity { name: "place y", dimension: Dimension::Length, called: &["y"], example: "y_um" };
+
+/// What the user says of a file beside its name.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reading<'a> {
+    /// Distance of the points of a map that does not say it, m.
+    pub pixel: Option<[f64; 2]>,
+    /// Unit of the heights of a map that does not say it.
+    pub height_unit: Option<&'a str>,
+    /// True where the heights count down.
+    pub is_down: bool,
+}
 
 /// Share of the depth of the deepest point below which a point of a map belongs to the hole, whose middle is
 /// the axis.
@@ -29,38 +63,146 @@ const HOLE_SHARE: f64 = 0.4;
 const LEVEL_RADII: f64 = 2.0;
 /// Rings of a radial mean over one contact radius.
 const RINGS: f64 = 40.0;
+/// Contact radii to which a line reaches on both sides of an imprint that it crosses, and from which its
+/// middle is not the 0 of its places: half of an imprint, weighted by its depth, has its middle within.
+const LINE_RADII: f64 = 1.2;
+const CENTRED_RADII: f64 = 0.5;
 
-/// Points (m) of the imprint in the text `text` of a profile, and what was understood.
-///
-/// # Errors
-/// The reason why it is none.
-pub fn profile(text: &str) -> Result<(Vec<[f64; 2]>, String), String> {
-    let table = read_series(text, &[PLACE, HEIGHT], &Asked::default()).map_err(|e| e.to_string())?;
-    let points = table.series.into_iter().next().map(|series| series.rows).unwrap_or_default();
-    Ok((points, table.understood))
+/// An imprint as a file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImprintRead {
+    /// Place and height, m.
+    pub points: Vec<[f64; 2]>,
+    /// True where heights are means over rings of a map.
+    pub are_means: bool,
+    /// Interpretation of the file.
+    pub understood: String,
 }
 
-/// Radial mean (m) of the imprint in the map at `path`, for a contact of about `radius`, and what was
-/// understood.
+/// The imprint in the file at `path`, for a contact of about `radius`; `text` is its content with its
+/// encoding where it is text.
 ///
 /// # Errors
 /// The reason why it is none, with a way out.
-pub fn map(path: &Path, radius: f64) -> Result<(Vec<[f64; 2]>, String), String> {
-    let measured = surface::read(path, &Request::default()).map_err(|e| e.to_string())?;
-    let (pixel, unit) = match (measured.spacing, measured.height_unit) {
-        (Spacing::Metres(pixel), Some(unit)) => (pixel, unit),
-        (Spacing::HeightUnits(pixel), Some(unit)) => (pixel.map(|p| p * unit), unit),
-        _ => {
-            return Err("is a map that does not say its pixel size and the unit of its heights: export it in a format that does (.x3p, .sur, .sdf, .gwy), or as a profile r_um,z_um".into());
+pub fn read(
+    path: &Path,
+    text: Option<(&str, &str)>,
+    radius: f64,
+    reading: Reading<'_>,
+) -> Result<ImprintRead, String> {
+    // a list of points x, y, z has the columns of a profile too
+    let is_list = text.is_some_and(|(t, _)| {
+        read_series(t, &[PLACE, OTHER_PLACE, HEIGHT], &Asked::default()).is_ok_and(|t| !t.series.is_empty())
+    });
+    let of_points = is_list.then(|| map(path, radius, reading));
+    if let Some(Ok(read)) = of_points {
+        return Ok(read);
+    }
+    let Some((text, encoding)) = text else { return map(path, radius, reading) };
+    match (profile(text, encoding, radius, reading), of_points) {
+        (Ok(read), _) => Ok(read),
+        (Err(_), Some(Err(problem))) => Err(problem),
+        (Err(no_profile), _) => map(path, radius, reading).map_err(|no_map| {
+            if no_map == UNSAID {
+                no_map
+            } else {
+                format!("is no profile ({no_profile}), and no map: {no_map}")
+            }
+        }),
+    }
+}
+
+/// Those of a profile.
+fn profile(text: &str, encoding: &str, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, String> {
+    let table = read_series(text, &[PLACE, HEIGHT], &Asked::default()).map_err(|e| e.to_string())?;
+    let mut points = table.series.into_iter().next().map(|series| series.rows).unwrap_or_default();
+    if reading.is_down {
+        for p in &mut points {
+            p[1] = -p[1];
         }
+    }
+    let mut understood = format!("{encoding} text: {}", table.understood);
+    if let Some((about, middle)) = centred(&points, radius) {
+        points = about;
+        let middle = 1e6 * middle;
+        understood += &format!(
+            "; a line across the imprint, levelled beyond {LEVEL_RADII} contact radii, its middle at {middle:.3} um"
+        );
+    }
+    Ok(ImprintRead { points, are_means: false, understood })
+}
+
+/// The points of a line that crosses the whole imprint elsewhere than at 0, levelled and about its middle,
+/// and the place of that; `None` of a profile that counts from the middle.
+fn centred(points: &[[f64; 2]], radius: f64) -> Option<(Vec<[f64; 2]>, f64)> {
+    let mut points: Vec<[f64; 3]> = points.iter().map(|p| [p[0], 0.0, p[1]]).collect();
+    let [middle, _] = level(&mut points, radius, |p| [1.0, p[0] / radius]).ok()?;
+    let reaches = |side: f64| points.iter().any(|p| side * (p[0] - middle) > LINE_RADII * radius);
+    let crosses = middle.abs() > CENTRED_RADII * radius && reaches(-1.0) && reaches(1.0);
+    crosses.then(|| (points.iter().map(|p| [p[0] - middle, p[2]]).collect(), middle))
+}
+
+/// What a map that is not known well enough is told.
+const UNSAID: &str = "is a map that does not say its pixel size and the unit of its heights: say them, imprint = { file = …, pixel_size = \"0.5 um\", height_unit = \"nm\" }, or export it in a format that does (.x3p, .sur, .sdf, .gwy), or as a profile r_um,z_um";
+
+/// Those of the radial mean of a map.
+fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, String> {
+    let mut measured = surface::read(path, &Request::default()).map_err(|e| e.to_string())?;
+    let unit_of = |name: &str| {
+        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name);
+        unit.map(|(_, metres)| *metres)
+            .ok_or_else(|| format!("has no heights in \"{name}\": give height_unit, like \"nm\""))
     };
-    let said = format!(
+    let asked = reading.height_unit.map(unit_of).transpose()?;
+    let unit = measured.height_unit.or(asked);
+    let pixel = match (measured.spacing, unit) {
+        (Spacing::Metres(pixel), _) => Some(pixel),
+        (Spacing::HeightUnits(pixel), Some(unit)) => Some(pixel.map(|p| p * unit)),
+        _ => reading.pixel,
+    };
+    let (Some(pixel), Some(unit)) = (pixel, unit) else { return Err(UNSAID.into()) };
+    if reading.is_down {
+        for z in &mut measured.heights {
+            *z = -*z;
+        }
+    }
+    let understood = format!(
         "map of {} × {} points {:.4} um apart, its radial mean about the middle of the hole",
         measured.columns,
         measured.rows,
         1e6 * pixel[0]
     );
-    Ok((radial_mean(&measured, pixel, unit, radius)?, said))
+    Ok(ImprintRead { points: radial_mean(&measured, pixel, unit, radius)?, are_means: true, understood })
+}
+
+/// Levels `points` (x, y, z) by what lies far from the hole, a plane of the terms of `row`; the middle of the
+/// hole.
+///
+/// # Errors
+/// Too little beside the hole, or none.
+fn level<const N: usize>(
+    points: &mut [[f64; 3]],
+    radius: f64,
+    row: impl Fn(&[f64; 3]) -> [f64; N],
+) -> Result<[f64; 2], String> {
+    // a slope of the whole comes first, so that its lower side is no hole; then the hole has no say
+    for round in 0..3 {
+        let centre = if round == 0 { None } else { Some(centre(points)?) };
+        let far = |p: &&[f64; 3]| {
+            centre.is_none_or(|c: [f64; 2]| (p[0] - c[0]).hypot(p[1] - c[1]) > LEVEL_RADII * radius)
+        };
+        let rows: Vec<_> = points.iter().filter(far).map(|p| (row(p), p[2], 1.0)).collect();
+        let plane = least_squares::solve(&rows).filter(|_| rows.len() > 20).ok_or_else(|| {
+            format!(
+                "shows too little beside the imprint to level it: it has to reach beyond {LEVEL_RADII} contact radii, {:.3} um",
+                1e6 * LEVEL_RADII * radius
+            )
+        })?;
+        for p in points.iter_mut() {
+            p[2] -= row(p).iter().zip(&plane).map(|(term, of)| term * of).sum::<f64>();
+        }
+    }
+    centre(points)
 }
 
 /// Mean heights over rings about the middle of the hole, levelled by a plane through what lies far from it.
@@ -77,25 +219,7 @@ fn radial_mean(
         })
         .filter(|p| p[2].is_finite())
         .collect();
-    // a slope of the whole map comes first, so that its lower side is no hole; then the hole has no say
-    for round in 0..3 {
-        let centre = if round == 0 { None } else { Some(centre(&points)?) };
-        let far = |p: &&[f64; 3]| {
-            centre.is_none_or(|c: [f64; 2]| (p[0] - c[0]).hypot(p[1] - c[1]) > LEVEL_RADII * radius)
-        };
-        let rows: Vec<_> =
-            points.iter().filter(far).map(|p| ([1.0, p[0] / radius, p[1] / radius], p[2], 1.0)).collect();
-        let plane = least_squares::solve(&rows).filter(|_| rows.len() > 20).ok_or_else(|| {
-            format!(
-                "shows too little beside the imprint to level it: it has to reach beyond {LEVEL_RADII} contact radii, {:.3} um",
-                1e6 * LEVEL_RADII * radius
-            )
-        })?;
-        for p in &mut points {
-            p[2] -= plane[0] + (plane[1] * p[0] + plane[2] * p[1]) / radius;
-        }
-    }
-    let middle = centre(&points)?;
+    let middle = level(&mut points, radius, |p| [1.0, p[0] / radius, p[1] / radius])?;
     let width = radius / RINGS;
     let mut rings: Vec<(f64, [f64; 2])> = Vec::new();
     for p in &points {
@@ -152,5 +276,25 @@ mod tests {
             let cone = (0.2 * r - 1e-6).min(0.0);
             assert!((z - cone).abs() < 0.02e-6, "{r:e} {z:e} {cone:e}");
         }
+    }
+
+    /// A line along x over the same cone, read from its left end and tilted: the cone about its middle. A
+    /// profile that counts from the middle stays as it is, one side of it or both.
+    #[test]
+    fn a_line_from_its_end_is_centred_and_levelled() {
+        let line = |from: f64, to: f64, middle: f64, tilt: f64| {
+            let at = move |k: i32| from + (to - from) * f64::from(k) / 400.0;
+            (0..=400)
+                .map(|k| [at(k), (0.2 * (at(k) - middle).abs() - 1e-6).min(0.0) + tilt * at(k)])
+                .collect::<Vec<_>>()
+        };
+        let (points, middle) = centred(&line(0.0, 40e-6, 22.3e-6, 0.02), 5e-6).unwrap();
+        assert!((middle - 22.3e-6).abs() < 0.05e-6, "{middle:e}");
+        for [x, z] in points {
+            let cone = (0.2 * x.abs() - 1e-6).min(0.0);
+            assert!((z - cone).abs() < 0.02e-6, "{x:e} {z:e} {cone:e}");
+        }
+        assert_eq!(centred(&line(0.0, 20e-6, 0.0, 0.0), 5e-6), None);
+        assert_eq!(centred(&line(-20e-6, 20e-6, 0.1e-6, 0.0), 5e-6), None);
     }
 }

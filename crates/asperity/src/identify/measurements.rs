@@ -11,7 +11,7 @@ use asperity_formats::text::{Series, TextError, decode};
 use asperity_identification::experiment::{Data, ImprintNumbers};
 use asperity_identification::fit_file::{Features, FitCurve, FitFile, FitShape};
 use asperity_identification::imprint::{Imprint, StatedNoise};
-use asperity_identification::imprint_file;
+use asperity_identification::imprint_file::{self, Reading};
 use asperity_identification::measured_curve::Measured;
 use asperity_identification::response::Geometry;
 
@@ -180,23 +180,20 @@ pub(super) fn imprint(
     let error = |reason: String| key_error(key, format!("{shown} {reason}"));
     let bytes = read_file(&path, LARGEST_CURVE_FILE, "the limit of a file of an imprint")
         .map_err(|e| error(format!("cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
-    let text = decode(&bytes).ok().and_then(|(text, encoding)| {
-        let read = imprint_file::profile(&text);
-        read.ok()
-            .map(|(points, columns)| (points, understood(&format!("{name}, imprint"), &encoding, &columns)))
-    });
-    let (points, line) = match text {
-        Some(read) => read,
-        None => {
-            let (points, line) = imprint_file::map(&path, radius).map_err(error)?;
-            (points, format!("{name}, imprint: {line}"))
-        }
+    let reading = Reading {
+        pixel: table.pixel_size.map(|size| size.metres()),
+        height_unit: table.height_unit.as_deref(),
+        is_down: table.z_down,
     };
+    let text = decode(&bytes).ok();
+    let text = text.as_ref().map(|(text, encoding)| (&**text, &**encoding));
+    let read = imprint_file::read(&path, text, radius, reading).map_err(error)?;
+    let line = format!("{name}, imprint: {}", read.understood);
     let stated = StatedNoise {
         noise: table.noise.map(|l| l.0),
         correlation_length: table.correlation_length.map(|l| l.0),
     };
-    let imprint = Imprint::new(&points, radius, depth, stated).map_err(error)?;
+    let imprint = Imprint::new((&read.points, read.are_means), radius, depth, stated).map_err(error)?;
     said.understood.push(line);
     said.notes.extend(imprint.notes.iter().map(|note| format!("{name}: {note}")));
     Ok(Some(Data::Imprint(imprint)))
