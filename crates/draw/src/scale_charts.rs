@@ -1,6 +1,8 @@
 //! Charts of a surface at all its scales, over the logarithm of the cut-off.
 
-use crate::chart::{Chart, Series};
+use crate::chart::{Chart, Dash, Series};
+use crate::palette;
+use asperity_roughness::Closure;
 use asperity_roughness::scales::{By, Numbers, Scales};
 
 /// A number of a contact over which a chart is drawn, and its unit in SI.
@@ -59,6 +61,24 @@ fn octave(cutoff: f64) -> f64 {
     (cutoff * 1e6).log2()
 }
 
+/// Colour and dash of a contact: a closure has its colour of every chart, a theory that of the half-space
+/// that it stands for.
+fn look(by: By) -> (palette::Colour, Dash) {
+    let (closure, dash) = match by {
+        By::Elastic => (Closure::HalfSpace, Dash::Solid),
+        By::Limited => (Closure::HalfSpacePlastic, Dash::Solid),
+        By::LimitedBySlope => (Closure::HalfSpacePlastic, Dash::Long),
+        By::Persson => (Closure::HalfSpace, Dash::Dotted),
+        By::PerssonLimited => (Closure::HalfSpacePlastic, Dash::Dotted),
+        By::Bearing => (Closure::HalfSpacePlastic, Dash::Dashed),
+        By::Islands(name) => {
+            let named = Closure::ALL.into_iter().find(|closure| closure.name() == name);
+            (named.unwrap_or(Closure::Custom), Dash::Solid)
+        }
+    };
+    (palette::closure(closure), dash)
+}
+
 fn by_scale(found: &Scales, label: &str, title: &str, (of, unit): Column) -> Chart {
     let mut names: Vec<By> = Vec::new();
     for (by, _) in found.steps.iter().flat_map(|step| &step.contacts) {
@@ -70,7 +90,9 @@ fn by_scale(found: &Scales, label: &str, title: &str, (of, unit): Column) -> Cha
         let points =
             found.contacts(by).filter_map(|(step, one)| Some([octave(step.cutoff), of(one)? / unit]));
         let points: Vec<[f64; 2]> = points.collect();
-        (!points.is_empty()).then(|| Series::line(by.name(), points).marked())
+        let (colour, dash) = look(by);
+        let line = Series { colour: Some(colour), dash: Some(dash), ..Series::line(by.name(), points) };
+        (!line.points.is_empty()).then(|| line.marked())
     });
     Chart::new(CUTOFF, label, series).titled(title)
 }
