@@ -665,7 +665,7 @@ class FeaturesTable(TypedDict, total=False):
 
 
 class ImprintTable(TypedDict, total=False):
-    """Its file and its noise."""
+    """Its file, its noise, its units."""
 
     correlation_length: str
     """Distance over which heights are off alike, that of roughness or of the stylus; absent: from the far field."""
@@ -673,8 +673,17 @@ class ImprintTable(TypedDict, total=False):
     file: str
     """Profile or map, relative to the fit file."""
 
+    height_unit: str
+    """Unit of the heights of a map, where the file does not say."""
+
     noise: str
     """Standard deviation of a height; absent: from the far field."""
+
+    pixel_size: str | Sequence[str]
+    """Distance of the points of a map along x and y, or one for both, where the file does not say."""
+
+    z_down: bool
+    """True where the heights of the file count down, so that the imprint has positive ones."""
 
 
 class CurveToolTable(TypedDict, total=False):
@@ -730,7 +739,7 @@ class CurveTable(TypedDict, total=False):
 
     imprint: str | ImprintTable
     """The imprint that was left, of a cone or a ball: a profile with columns such as r_um,z_um (r from the axis, z up,
-    0 on the far field), or a map that says its units; or a table with its noise.
+    0 on the far field), or a map; or a table with its noise and what the file does not say.
     """
 
     missing_value: float
