@@ -1,6 +1,7 @@
 //! All that the measurements say at the best fit: numbers with their intervals, the stress-strain curve with
 //! its band, the residual, the verdict.
 
+use crate::accord::accords;
 use crate::branches::{allowed_minima, branches};
 use crate::experiment::{Data, Experiment};
 use crate::identifiability::{
@@ -249,10 +250,12 @@ fn residual(
     // a measurement that does not fit is not hidden by others that fit well
     let each = misfits.iter().all(|misfit| misfit.fits(0));
     let sought = unknowns.parameters.len();
+    let accords = accords(experiments, unknowns, &best.point);
     Some(Residual {
         chi2: all.chi2,
-        fits: each && all.fits(sought),
+        fits: each && all.fits(sought) && accords.iter().all(|accord| accord.holds),
         degrees_of_freedom: all.count as i64 - sought as i64,
         curves,
+        accords,
     })
 }

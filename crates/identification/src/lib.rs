@@ -50,6 +50,8 @@ pub mod numbers;
 
 pub mod noise;
 
+mod accord;
+
 pub mod inference;
 
 mod verdict;

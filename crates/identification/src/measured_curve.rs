@@ -302,7 +302,7 @@ mod tests {
                 p[1] *= 1.0 + noise();
             }
             let measured = Measured::new(&readings).unwrap();
-            // half a percent of the force is a quarter of one of the depth, and a mean of nine is off by as much
+            // half a percent of the force is a quarter of one of the depth; a mean of nine is off as far
             let early = 1.0 - measured.loaded / measured.peak[0];
             assert!(early < 0.006, "{case}: {early}, {:?}", measured.notes);
         }

@@ -56,13 +56,28 @@ pub struct Branch {
 pub struct Residual {
     /// Sum of squares in standard deviations.
     pub chi2: f64,
-    /// True where that is no more than chance allows.
+    /// True where that is no more than chance allows, and every imprint is in accord with the rest.
     pub fits: bool,
     /// Measured numbers less unknowns.
     pub degrees_of_freedom: i64,
     /// Of each measurement: name, root mean square of the relative differences of its forces (features),
     /// noise used.
     pub curves: Vec<CurveResidual>,
+    /// Of each imprint beside other measurements: whether one metal explains it and them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub accords: Vec<Accord>,
+}
+
+/// Accord of an imprint with the other measurements.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Accord {
+    /// The imprint.
+    pub measurement: String,
+    /// Growth of the sum of squares because one metal has to serve the imprint and the others, over the sum
+    /// of both by themselves.
+    pub growth: f64,
+    /// True where that is no more than chance allows.
+    pub holds: bool,
 }
 
 /// Residual of one measurement.

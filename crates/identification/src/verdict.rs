@@ -18,6 +18,12 @@ pub fn verdict(
     let list = |told: bool| -> Vec<&str> {
         parameters.iter().filter(|(_, f)| f.identifiable == told).map(|(name, _)| name.as_str()).collect()
     };
+    if let Some(accord) = residual.accords.iter().find(|accord| !accord.holds) {
+        return format!(
+            "not identifiable: no metal explains {} and the other measurements together, so the model is rejected (χ² grows by {:.1} where one metal has to serve both); look whether they belong to one indent, for a wrong unit, tool, law or level",
+            accord.measurement, accord.growth
+        );
+    }
     if !residual.fits {
         return format!(
             "not identifiable: no metal within the bounds fits the measurements within their errors, so the model is rejected (χ² {:.1}, {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",

@@ -26,7 +26,7 @@ pub use asperity_identification::fit_file::{
 pub use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
 pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
 pub use asperity_identification::numbers::StressAt;
-pub use asperity_identification::numbers::{CurveResidual, Found, Residual};
+pub use asperity_identification::numbers::{Accord, CurveResidual, Found, Residual};
 pub use fit::Fit;
 pub use result::{Identification, metal_override};
 pub use tool_geometry::PYRAMIDS_CONE;
