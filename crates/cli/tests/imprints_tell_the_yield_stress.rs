@@ -114,7 +114,7 @@ fn an_imprint_of_another_depth_or_pile_up_is_rejected() {
         twin(&place, read);
         let found = fit(&place, "imprint = { file = \"profile.csv\", noise = \"20 nm\" }\n", "out");
         let accord = &found["residual"]["accords"][0];
-        assert_eq!(found["residual"]["fits"], k == 0, "{}", found["residual"]);
+        assert_eq!(found["residual"]["fits"], k == 0, "{k}: {}", found["residual"]);
         assert_eq!(accord["holds"], k == 0, "{accord}");
     }
 }

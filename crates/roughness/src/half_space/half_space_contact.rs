@@ -164,7 +164,8 @@ impl Units {
 }
 
 impl HalfSpace {
-    /// The same for contacts of which a curve is drawn: they are found to [`LOOSER`] times the tolerance.
+    /// The same for contacts of which a curve is drawn: they are found to ten times the
+    /// tolerance, 0.01 at most.
     pub fn for_a_series(&self) -> HalfSpace {
         HalfSpace { tolerance: (LOOSER * self.tolerance).min(LOOSEST_TOLERANCE), ..*self }
     }

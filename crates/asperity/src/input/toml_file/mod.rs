@@ -345,9 +345,12 @@ fn put<'a>(
         DeValue::Array(array) => {
             let len = array.len();
             let index = key.parse::<usize>().ok().filter(|&i| i <= len).ok_or_else(|| {
+                if numbered(keys) {
+                    return format!("`{key}` is not in a list of {len} tables: take one from 0 to {len}, where [{len}] adds one");
+                }
                 format!(
-                    "`{key}` is asked of a list of {len} tables: name one by its number in brackets, as in [0].{key}; \
-                     [{len}] adds one"
+                    "`{key}` is asked of a list of {len} tables: name one by its number, from 0 to {len}, in brackets, as in \
+                     [0].{key}; [{len}] adds one"
                 )
             })?;
             if index == len {
