@@ -45,7 +45,7 @@ const HEIGHT: Quantity = Quantity {
 const OTHER_PLACE: Quantity =
     Quantity { name: "place y", dimension: Dimension::Length, called: &["y"], example: "y_um" };
 
-/// What the user says of a file beside its name.
+/// Statements of the user on a file beside its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading<'a> {
     /// Distance of the points of a map that does not say it, m.
@@ -142,7 +142,7 @@ fn centred(points: &[[f64; 2]], radius: f64) -> Option<(Vec<[f64; 2]>, f64)> {
     crosses.then(|| (points.iter().map(|p| [p[0] - middle, p[2]]).collect(), middle))
 }
 
-/// What a map that is not known well enough is told.
+/// The message on a map of which too little is known.
 const UNSAID: &str = "is a map that does not say its pixel size and the unit of its heights: say them, imprint = { file = …, pixel_size = \"0.5 um\", height_unit = \"nm\" }, or export it in a format that does (.x3p, .sur, .sdf, .gwy), or as a profile r_um,z_um";
 
 /// Those of the radial mean of a map.

@@ -24,7 +24,7 @@ impl Joint {
         let law = self.interface_law();
         let continued = InterfaceLaw { pressure: self.continued(&law.pressure), ..law.clone() };
         let calculix =
-            InterfaceLaw { head: continued.head.clone() + &self.first_increment(), ..continued.clone() };
+            InterfaceLaw { head: continued.head.clone() + &first_increment(&law), ..continued.clone() };
         sink.text("calculix.inp", &calculix.calculix())?;
         sink.text("abaqus.inp", &continued.abaqus())?;
         sink.text("moose.csv", &law.moose())?;
@@ -69,22 +69,6 @@ impl Joint {
             }),
             heat: conductances(|row| row.conductance_W_per_m2K),
             current: conductances(|row| row.electrical_conductance_S_per_m2),
-        }
-    }
-
-    /// What the first increment of a model with the formula has to carry, for the head; nothing without heat.
-    ///
-    /// Tried in CalculiX 2.20: two blocks that touch, pressed by less than the formula gives at overclosure
-    /// 0, fly apart, and the step ends in too many cutbacks; from one and a half times that on it converges.
-    fn first_increment(&self) -> String {
-        let law = self.interface_law();
-        match law.exponential {
-            Some([touching, _]) if !law.heat.is_empty() => format!(
-                " With JOINT_HEAT the first increment has to carry more than {} MPa, the pressure of the formula at \
-                 overclosure 0: faces that are pressed by less part, and the step fails.",
-                rounded(touching / MEGAPASCAL)
-            ),
-            _ => String::new(),
         }
     }
 
@@ -152,5 +136,21 @@ impl Joint {
             );
         }
         text + &self.summary.verdict + "\n"
+    }
+}
+
+/// The load that the first increment of a model with the formula has to carry, for the head; nothing without
+/// heat.
+///
+/// Tried in CalculiX 2.20: two blocks that touch, pressed by less than the formula gives at overclosure 0,
+/// fly apart, and the step ends in too many cutbacks; from one and a half times that on it converges.
+fn first_increment(law: &InterfaceLaw) -> String {
+    match law.exponential {
+        Some([touching, _]) if !law.heat.is_empty() => format!(
+            " With JOINT_HEAT the first increment has to carry more than {} MPa, the pressure of the formula at \
+             overclosure 0: faces that are pressed by less part, and the step fails.",
+            rounded(touching / MEGAPASCAL)
+        ),
+        _ => String::new(),
     }
 }

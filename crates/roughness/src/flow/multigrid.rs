@@ -42,7 +42,7 @@ impl Network {
         Network { long, wide, ahead, beside, ends, sum, inverse }
     }
 
-    /// What the lines beside `line` bring to its cells: Σ g x.
+    /// Flow from the lines beside `line` to its cells: Σ g x.
     fn inflow_from_beside(&self, x: &[f64], line: usize, sum: &mut [f64]) {
         let row = |line: usize| line * self.long..(line + 1) * self.long;
         let (here, below) = (row(line), row((line + self.wide - 1) % self.wide));
