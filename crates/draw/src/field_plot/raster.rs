@@ -34,18 +34,15 @@ fn ceiling(x: f64) -> usize {
 }
 
 impl Raster {
-    /// Paints the part of `mesh` in `window`, and its mirror image where `mirrored`.
+    /// Paints the part of `mesh` in `window`; where `mirrored`, the window reaches as far to the left of the axis
+    /// as to its right, and shows the mirror image there.
     pub fn draw(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
         let mut raster = Raster { size, dots: vec![None; size[0] * size[1]] };
         let span = window.size();
         let scale = size[0] as f64 / span[0];
-        let sides: &[f64] = if mirrored { &[1.0, -1.0] } else { &[1.0] };
         for cell in 0..mesh.cells() {
             let corners = mesh.corners(cell);
-            let image = |side: f64, [r, z]: [f64; 2]| [side * r, z];
-            let shown = |side: &&f64| window.meets(&corners.map(|corner| image(**side, corner)));
-            let shown: Vec<f64> = sides.iter().filter(shown).copied().collect();
-            if shown.is_empty() {
+            if !window.meets(&corners) {
                 continue;
             }
             let largest = (0..4)
@@ -56,12 +53,15 @@ impl Raster {
                 .fold(0.0, f64::max);
             let parts = ceiling(largest * scale / FACET).clamp(2, 64);
             for facet in mesh.facets(cell, parts) {
-                for &side in &shown {
-                    raster.paint(&facet.map(|v| {
-                        let [r, z] = image(side, v.at);
-                        Vertex { at: [(r - window.low[0]) * scale, (window.high[1] - z) * scale], ..v }
-                    }));
-                }
+                let place = |[r, z]: [f64; 2]| [(r - window.low[0]) * scale, (window.high[1] - z) * scale];
+                raster.paint(&facet.map(|v| Vertex { at: place(v.at), ..v }));
+            }
+        }
+        if mirrored {
+            let columns = size[0];
+            for row in raster.dots.chunks_exact_mut(columns) {
+                let (left, right) = row.split_at_mut(columns / 2);
+                left.iter_mut().zip(right.iter().rev()).for_each(|(image, dot)| *image = *dot);
             }
         }
         raster

@@ -29,7 +29,7 @@ const LEAST_PERIODS: f64 = 3.0;
 
 /// Most harmonics, and highest power of t in their amplitudes.
 const MOST_HARMONICS: usize = 4;
-const HIGHEST_POWER: usize = 3;
+const HIGHEST_POWER: i32 = 3;
 
 /// Rows that a fit has more than columns.
 const FREE_ROWS: usize = 5;
@@ -211,17 +211,22 @@ fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
     let most = (x.len() / fitted.rows_per_knot).min((periods / fitted.periods_per_knot) as usize).max(1);
     let [from, to] = [x[0], x[x.len() - 1]];
     let t: Vec<f64> = x.iter().map(|x| 2.0 * (x - from) / (to - from) - 1.0).collect();
+    let waves: Vec<Vec<(i32, Vec<f64>)>> =
+        (1..=MOST_HARMONICS).map(|harmonic| waves(fronts, &t, harmonic)).collect();
     let mut without = f64::INFINITY;
     let mut fits: Vec<(f64, Vec<f64>)> = Vec::new();
     for intervals in 1..=most {
         let smooth = spline(x, intervals);
         without = without.min(smooth.left_out_error(y));
+        let is_apart = |(_, column): &(i32, Vec<f64>)| smooth.independence(column) > fitted.apart_from_spline;
+        let apart: Vec<Vec<bool>> =
+            waves.iter().map(|columns| columns.iter().map(is_apart).collect()).collect();
         for power in 0..=HIGHEST_POWER {
             let mut fit = smooth.clone();
-            for harmonic in 1..=MOST_HARMONICS {
-                for column in waves(fronts, &t, harmonic, power) {
-                    if smooth.independence(&column) > fitted.apart_from_spline {
-                        fit.add(column, fitted.apart);
+            for (columns, apart) in waves.iter().zip(&apart) {
+                for ((own, column), apart) in columns.iter().zip(apart) {
+                    if *apart && *own <= power {
+                        fit.add(column.clone(), fitted.apart);
                     }
                 }
                 if x.len() < fit.count() + FREE_ROWS {
@@ -249,14 +254,14 @@ fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
     Some(part)
 }
 
-/// Columns of one harmonic of every front, with amplitudes up to the given power of t.
-fn waves(fronts: &[Vec<f64>], t: &[f64], harmonic: usize, power: usize) -> Vec<Vec<f64>> {
+/// Columns of one harmonic of every front, each with the power of t of its amplitude.
+fn waves(fronts: &[Vec<f64>], t: &[f64], harmonic: usize) -> Vec<(i32, Vec<f64>)> {
     let mut columns = Vec::new();
     for front in fronts {
-        for power in 0..=power as i32 {
+        for power in 0..=HIGHEST_POWER {
             for wave in [f64::cos, f64::sin] {
                 let at = |(s, t): (&f64, &f64)| wave(TAU * harmonic as f64 * s) * t.powi(power);
-                columns.push(front.iter().zip(t).map(at).collect());
+                columns.push((power, front.iter().zip(t).map(at).collect()));
             }
         }
     }
