@@ -1,7 +1,8 @@
 //! The cut-offs of a map, and what a filter leaves of it.
 
-use crate::surface::filter::FilterError;
-use crate::{HeightMap, Surface, s_filter};
+use crate::surface::filter::{FilterError, s_filter_at};
+use crate::surface::gaussian::Places;
+use crate::{HeightMap, Surface};
 
 /// Waves of the coarsest cut-off along the shorter side: fewer are no sample.
 const FEWEST_WAVES: f64 = 4.0;
@@ -56,28 +57,21 @@ impl Scale {
         if cutoff <= finest(map) * (1.0 + 1e-9) {
             return Ok(Scale { cutoff, wave: cutoff, surface: surface.clone() });
         }
-        let smooth = thinned(s_filter(map, cutoff)?, cutoff)?;
+        let smooth = s_filter_at(map, cutoff, kept(map, cutoff))?;
         let wave = std::f64::consts::SQRT_2 * cutoff;
         Ok(Scale { cutoff, wave, surface: Surface::from_map(smooth)? })
     }
 }
 
-/// Every so many points of a smooth map, those of the edges left out alike on both sides; of a periodic one
-/// the step divides the number of points.
-fn thinned(map: HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
+/// Every so many points of a map along x and y, [`PIXELS_PER_WAVE`] to a cut-off at least, those of the edges
+/// left out alike on both sides; of a periodic map the step divides the number of points.
+fn kept(map: &HeightMap, cutoff: f64) -> [Places; 2] {
     let nodes = [map.columns(), map.rows()];
-    let step = [0, 1].map(|k| {
+    [0, 1].map(|k| {
         let most = (cutoff / (PIXELS_PER_WAVE * map.pixel()[k])).floor().max(1.0) as usize;
         let divides = |s: &usize| !map.periodic() || nodes[k].is_multiple_of(*s);
-        (1..=most).rev().find(divides).unwrap_or(1)
-    });
-    if step == [1, 1] {
-        return Ok(map);
-    }
-    let count = [0, 1].map(|k| nodes[k] / step[k]);
-    let first = [0, 1].map(|k| (nodes[k] - 1 - (count[k] - 1) * step[k]) / 2);
-    let row = |y: usize| map.row(first[1] + y * step[1]);
-    let heights = (0..count[1]).flat_map(|y| (0..count[0]).map(move |x| row(y)[first[0] + x * step[0]]));
-    let pixel = [0, 1].map(|k| map.pixel()[k] * step[k] as f64);
-    Ok(HeightMap::new(count[0], count[1], pixel, heights.collect())?.with_periodic(map.periodic()))
+        let step = (1..=most).rev().find(divides).unwrap_or(1);
+        let count = nodes[k] / step;
+        Places { first: (nodes[k] - 1 - (count - 1) * step) / 2, step, count }
+    })
 }

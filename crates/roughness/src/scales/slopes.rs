@@ -7,10 +7,11 @@ use crate::surface::cells;
 
 /// Shares of the surface that are less steep than the quantiles of [`Slopes`].
 pub const QUANTILES: [f64; 5] = [0.01, 0.1, 0.5, 0.9, 0.99];
-/// Bins of the distribution: to an octave, and the octaves below the rms slope.
-const PER_OCTAVE: f64 = 32.0;
-const OCTAVES_BELOW: f64 = 12.0;
-const BINS: usize = 640;
+/// Bins of the distribution of squared slopes: the bits of the mantissa that are told apart, so that an octave
+/// has 32 of equal width; the octaves below the mean square, and all bins.
+const BITS: u32 = 5;
+const OCTAVES_BELOW: u64 = 24;
+const BINS: usize = 1280;
 /// Rows to a distance that differences over it are taken on: nearer ones are alike.
 const ROWS_PER_DISTANCE: usize = 8;
 
@@ -39,9 +40,7 @@ pub struct Slopes {
 
 /// Sums over the pieces of a surface.
 struct Sums {
-    bins: Vec<f64>,
-    /// Pieces, |∇h|.
-    moments: [f64; 2],
+    bins: Vec<u64>,
     /// Of cells: dx², dx dy, dy².
     tensor: [f64; 3],
 }
@@ -65,7 +64,7 @@ impl Slopes {
         let lines = [0, 1].map(|axis| differences(whole, axis, distance[axis]));
         Slopes {
             rms,
-            mean: factor * sums.moments[1] / sums.moments[0],
+            mean: factor * parameters.mean_gradient,
             quantiles: QUANTILES.map(|share| factor * linear * quantile(&sums.bins, share)),
             rms_curvature,
             anisotropy: ((half - apart).max(0.0) / (half + apart)).sqrt(),
@@ -79,15 +78,13 @@ impl Slopes {
 
 fn sums(map: &HeightMap, rms: f64) -> Sums {
     let inverse_pixel = map.inverse_pixel();
+    let per_square = if rms > 0.0 { rms.powi(-2) } else { 0.0 };
     let parts = map.chunks(|rows| {
-        let mut sums = Sums { bins: vec![0.0; BINS], moments: [0.0; 2], tensor: [0.0; 3] };
+        let mut sums = Sums { bins: vec![0; BINS], tensor: [0.0; 3] };
         for row in rows {
             map.for_each_cell(row, |z| {
-                for g in cells::gradients(&z, inverse_pixel) {
-                    let bin = ((g / rms).log2() + OCTAVES_BELOW) * PER_OCTAVE;
-                    sums.bins[(bin.max(0.0) as usize).min(BINS - 1)] += 1.0;
-                    sums.moments[0] += 1.0;
-                    sums.moments[1] += g;
+                for square in cells::squared_gradients(&z, inverse_pixel) {
+                    sums.bins[bin(square * per_square)] += 1;
                 }
                 let dx = 0.5 * ((z[1] - z[0]) + (z[2] - z[3])) * inverse_pixel[0];
                 let dy = 0.5 * ((z[3] - z[0]) + (z[2] - z[1])) * inverse_pixel[1];
@@ -97,23 +94,31 @@ fn sums(map: &HeightMap, rms: f64) -> Sums {
         }
         sums
     });
-    let mut total = Sums { bins: vec![0.0; BINS], moments: [0.0; 2], tensor: [0.0; 3] };
+    let mut total = Sums { bins: vec![0; BINS], tensor: [0.0; 3] };
     for part in parts {
-        total.moments.iter_mut().zip(part.moments).for_each(|(a, b)| *a += b);
         total.tensor.iter_mut().zip(part.tensor).for_each(|(a, b)| *a += b);
         total.bins.iter_mut().zip(&part.bins).for_each(|(a, b)| *a += b);
     }
     total
 }
 
+/// Bits of the first bin: the exponent and the first bits of the mantissa of 2^-24.
+const FIRST: u64 = (1023 - OCTAVES_BELOW) << BITS;
+
+/// The bin of a squared slope over its mean.
+fn bin(square: f64) -> usize {
+    let bits = square.to_bits() >> (f64::MANTISSA_DIGITS - 1 - BITS);
+    (bits.saturating_sub(FIRST) as usize).min(BINS - 1)
+}
+
 /// The slope over its rms that the share `share` lies below.
-fn quantile(bins: &[f64], share: f64) -> f64 {
-    let wanted = share * bins.iter().sum::<f64>();
+fn quantile(bins: &[u64], share: f64) -> f64 {
+    let wanted = share * bins.iter().sum::<u64>() as f64;
     let mut below = 0.0;
-    for (k, count) in bins.iter().enumerate() {
-        if below + count >= wanted && *count > 0.0 {
-            let bin = k as f64 + (wanted - below) / count;
-            return 2f64.powf(bin / PER_OCTAVE - OCTAVES_BELOW);
+    for (k, count) in bins.iter().map(|count| *count as f64).enumerate() {
+        if below + count >= wanted && count > 0.0 {
+            let start = |k: usize| f64::from_bits((FIRST + k as u64) << (f64::MANTISSA_DIGITS - 1 - BITS));
+            return (start(k) + (wanted - below) / count * (start(k + 1) - start(k))).sqrt();
         }
         below += count;
     }
@@ -144,33 +149,62 @@ fn squares(map: &HeightMap, axis: usize, step: usize) -> [Option<f64>; 2] {
     let length = step as f64 * map.pixel()[axis];
     let stride = (step / ROWS_PER_DISTANCE).max(1);
     let parts = crate::surface::height_map::chunks(ny, |rows| {
-        let mut sums = [[0.0; 2]; 2];
-        let mut add = |k: usize, value: f64| {
-            if !value.is_nan() {
-                sums[k] = [sums[k][0] + value * value, sums[k][1] + 1.0];
-            }
-        };
+        let mut sums = [MeanSquare::default(); 2];
+        let mut wide = Vec::new();
         for y in rows.filter(|y| y.is_multiple_of(stride)) {
-            for x in 0..nx {
-                let here = [x, y][axis];
-                let shifted = |by: usize| {
-                    let to = here + by;
-                    let to = if to < n { to } else { to - n };
-                    if axis == 0 { map.row(y)[to] } else { map.row(to)[x] }
-                };
-                let (own, ahead, behind) = (map.row(y)[x], here + step < n, here >= step);
-                if map.periodic() || ahead {
-                    add(0, (shifted(step) - own) / length);
+            let [first, second] = &mut sums;
+            if axis == 0 {
+                wide.clear();
+                wide.extend_from_slice(map.row(y));
+                first.add_two(&wide, &wide[step..]);
+                if map.periodic() {
+                    wide.extend((0..2 * step).map(|x| map.row(y)[x % n]));
+                    first.add_two(&wide[n - step..n], &wide[n..]);
                 }
-                if map.periodic() || (ahead && behind) {
-                    add(1, (shifted(step) - 2.0 * own + shifted(n - step)) / (length * length));
-                }
+                second.add_three(&wide, &wide[step..], wide.get(2 * step..).unwrap_or(&[]));
+                continue;
             }
+            let row = |y: usize| (map.periodic() || y < n).then(|| map.row(y % n));
+            let (own, ahead, second_ahead) = (map.row(y), row(y + step), row(y + 2 * step));
+            first.add_two(own, ahead.unwrap_or(&[]));
+            second.add_three(own, ahead.unwrap_or(&[]), second_ahead.unwrap_or(&[]));
         }
         sums
     });
     [0, 1].map(|k| {
-        let [sum, count] = parts.iter().fold([0.0; 2], |s, p| [s[0] + p[k][0], s[1] + p[k][1]]);
-        (count > 0.0).then(|| sum / count)
+        let total = parts.iter().fold(MeanSquare::default(), |total, part| total.plus(part[k]));
+        total.value().map(|square| square / length.powi(2 + 2 * k as i32))
     })
+}
+
+/// A mean square of numbers, of which those that are NaN do not count.
+#[derive(Clone, Copy, Debug, Default)]
+struct MeanSquare {
+    sum: f64,
+    count: f64,
+}
+
+impl MeanSquare {
+    fn add(&mut self, value: f64) {
+        let known = !value.is_nan();
+        self.sum += if known { value * value } else { 0.0 };
+        self.count += f64::from(u8::from(known));
+    }
+
+    fn add_two(&mut self, own: &[f64], ahead: &[f64]) {
+        own.iter().zip(ahead).for_each(|(own, ahead)| self.add(ahead - own));
+    }
+
+    fn add_three(&mut self, behind: &[f64], own: &[f64], ahead: &[f64]) {
+        let all = behind.iter().zip(own).zip(ahead);
+        all.for_each(|((behind, own), ahead)| self.add(ahead - 2.0 * own + behind));
+    }
+
+    fn plus(self, other: MeanSquare) -> MeanSquare {
+        MeanSquare { sum: self.sum + other.sum, count: self.count + other.count }
+    }
+
+    fn value(self) -> Option<f64> {
+        (self.count > 0.0).then(|| self.sum / self.count)
+    }
 }

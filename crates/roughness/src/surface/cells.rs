@@ -16,16 +16,17 @@ pub(crate) fn centre(corners: &[f64; 4]) -> f64 {
 /// |∇h| of the four triangles for pixels of `pixel` = [dx, dy], in units of height over units of `pixel`.
 #[inline]
 pub(crate) fn gradients(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> [f64; 4] {
+    squared_gradients(corners, inverse_pixel).map(f64::sqrt)
+}
+
+/// |∇h|² of the same.
+#[inline]
+pub(crate) fn squared_gradients(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> [f64; 4] {
     let [a, b, c, d] = *corners;
     let (x_low, x_high) = ((b - a) * inverse_pixel[0], (c - d) * inverse_pixel[0]);
     let (y_low, y_high) = ((d - a) * inverse_pixel[1], (c - b) * inverse_pixel[1]);
     let (x, y) = (0.5 * (x_low + x_high), 0.5 * (y_low + y_high));
-    [
-        (x_low * x_low + y * y).sqrt(),
-        (x * x + y_high * y_high).sqrt(),
-        (x_high * x_high + y * y).sqrt(),
-        (x * x + y_low * y_low).sqrt(),
-    ]
+    [x_low * x_low + y * y, x * x + y_high * y_high, x_high * x_high + y * y, x * x + y_low * y_low]
 }
 
 /// |∇h| of a whole cell on the mean.

@@ -1,6 +1,6 @@
 //! Gaussian areal filters (ISO 16610-61) and the filling of holes.
 
-use crate::surface::gaussian::Gaussian;
+use crate::surface::gaussian::{Gaussian, Places};
 use crate::surface::height_map::{HeightMap, MapError};
 use rayon::prelude::*;
 use thiserror::Error;
@@ -44,7 +44,24 @@ fn checked(map: &HeightMap, name: &'static str, cutoff: f64) -> Result<(), Filte
 /// A wavelength shorter than the map resolves or longer than it holds.
 pub fn s_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
     checked(map, "s_filter", cutoff)?;
-    Ok(map.with_heights(smoothed(map, cutoff))?)
+    Ok(map.with_heights(smoothed(map, cutoff, all(map)))?)
+}
+
+/// [`s_filter`], of which the heights at `kept` along x and y stay; a periodic map stays one where these are
+/// as far apart everywhere.
+///
+/// # Errors
+/// A wavelength shorter than the map resolves or longer than it holds; places that make no map.
+pub(crate) fn s_filter_at(map: &HeightMap, cutoff: f64, kept: [Places; 2]) -> Result<HeightMap, FilterError> {
+    checked(map, "s_filter", cutoff)?;
+    let pixel = [0, 1].map(|k| map.pixel()[k] * kept[k].step as f64);
+    let heights = smoothed(map, cutoff, kept);
+    Ok(HeightMap::new(kept[0].count, kept[1].count, pixel, heights)?.with_periodic(map.periodic()))
+}
+
+/// Every place along x and y.
+fn all(map: &HeightMap) -> [Places; 2] {
+    [map.columns(), map.rows()].map(Places::all)
 }
 
 /// L-filter: removes what is longer than `cutoff` (m); a wave of that length keeps half its height.
@@ -53,43 +70,65 @@ pub fn s_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> 
 /// A wavelength shorter than the map resolves or longer than it holds.
 pub fn l_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
     checked(map, "l_filter", cutoff)?;
-    let waviness = smoothed(map, cutoff);
+    let waviness = smoothed(map, cutoff, all(map));
     Ok(map.with_heights(map.heights().iter().zip(waviness).map(|(z, w)| z - w).collect())?)
 }
 
-/// Mean of the measured heights around each measured node, weighted by the Gaussian of `cutoff`.
+/// Mean of the measured heights around each measured node at `kept` along x and y, weighted by the Gaussian
+/// of `cutoff`.
 ///
 /// Beyond an edge and in a hole the weight is 0, so that the mean is of what was measured. Without holes the
 /// weights are those of a row times those of a column.
-fn smoothed(map: &HeightMap, cutoff: f64) -> Vec<f64> {
-    let (columns, rows) = (map.columns(), map.rows());
+fn smoothed(map: &HeightMap, cutoff: f64, kept: [Places; 2]) -> Vec<f64> {
+    let (columns, rows, periodic) = (map.columns(), map.rows(), map.periodic());
     let reference = map.heights().iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
     let [along_x, along_y] = map.pixel().map(|pixel| Gaussian::with_cutoff(cutoff / pixel));
-    let blurred = |mut data: Vec<f64>| {
-        along_x.along_rows(&mut data, columns, map.periodic());
-        along_y.along_columns(data, columns, map.periodic())
+    let summed = along_x.is_summed_at(kept[0]) && along_y.is_summed_at(kept[1]);
+    let blurred = |data: &[f64], offset: f64| {
+        if summed {
+            let mut lines = along_y.columns_at(data, offset, columns, kept[1], periodic);
+            if kept[0] != Places::all(columns) {
+                return along_x.rows_at(&lines, columns, kept[0], periodic);
+            }
+            along_x.along_rows(&mut lines, columns, periodic);
+            return lines;
+        }
+        let mut data: Vec<f64> = data.par_iter().map(|z| z - offset).collect();
+        along_x.along_rows(&mut data, columns, periodic);
+        picked(along_y.along_columns(data, columns, periodic), columns, kept)
     };
-    let over_measured = |value: &(dyn Fn(f64) -> f64 + Sync)| -> Vec<f64> {
-        map.heights().par_iter().map(|z| if z.is_nan() { 0.0 } else { value(*z) }).collect()
-    };
-    let mut mean = blurred(over_measured(&|z| z - reference));
     if map.missing() > 0 {
-        let weights = blurred(over_measured(&|_| 1.0));
-        mean.par_iter_mut().zip(&weights).zip(map.heights()).for_each(|((mean, weight), z)| {
+        let over_measured = |value: &(dyn Fn(f64) -> f64 + Sync)| -> Vec<f64> {
+            map.heights().par_iter().map(|z| if z.is_nan() { 0.0 } else { value(*z) }).collect()
+        };
+        let mut mean = blurred(&over_measured(&|z| z - reference), 0.0);
+        let weights = blurred(&over_measured(&|_| 1.0), 0.0);
+        let own = picked(map.heights().to_vec(), columns, kept);
+        mean.par_iter_mut().zip(&weights).zip(&own).for_each(|((mean, weight), z)| {
             *mean = if z.is_nan() { f64::NAN } else { reference + *mean / weight };
         });
         return mean;
     }
-    let weights = |gaussian: &Gaussian, length: usize| {
+    let mut mean = blurred(map.heights(), reference);
+    let weights = |gaussian: &Gaussian, length: usize, kept: Places| -> Vec<f64> {
         let mut line = vec![1.0; length];
-        gaussian.along_rows(&mut line, length, map.periodic());
-        line
+        gaussian.along_rows(&mut line, length, periodic);
+        kept.iter().map(|place| line[place]).collect()
     };
-    let (across, down) = (weights(&along_x, columns), weights(&along_y, rows));
-    mean.par_chunks_mut(columns).zip(&down).for_each(|(line, down)| {
+    let (across, down) = (weights(&along_x, columns, kept[0]), weights(&along_y, rows, kept[1]));
+    mean.par_chunks_mut(kept[0].count).zip(&down).for_each(|(line, down)| {
         line.iter_mut().zip(&across).for_each(|(mean, across)| *mean = reference + *mean / (across * down));
     });
     mean
+}
+
+/// The numbers at `kept` along x and y of rows of `columns`.
+fn picked(data: Vec<f64>, columns: usize, kept: [Places; 2]) -> Vec<f64> {
+    if kept == [Places::all(columns), Places::all(data.len() / columns)] {
+        return data;
+    }
+    let row = |y: usize| &data[y * columns..(y + 1) * columns];
+    kept[1].iter().flat_map(|y| kept[0].iter().map(move |x| row(y)[x])).collect()
 }
 
 /// Relaxation sweeps after the first fill.

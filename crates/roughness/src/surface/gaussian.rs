@@ -13,12 +13,36 @@ use std::f64::consts::{LN_2, PI};
 /// Reach in pixels up to which the sum is quicker than the transform (measured at 4096 pixels a line: equal
 /// at about 60).
 const DIRECT_SUM_REACH: usize = 48;
-/// Rows that one task sums into.
+/// Rows that one task sums into, and the columns of them at a time: what it sums stays in the cache.
 const ROWS: usize = 8;
+const TILE: usize = 128;
 
 /// Weights of a Gaussian over pixels at distances 0, 1, … from its middle; those of both sides add up to 1.
 pub(super) struct Gaussian {
     weights: Vec<f64>,
+}
+
+/// Evenly spaced places of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Places {
+    /// The first.
+    pub first: usize,
+    /// Pixels from one to the next.
+    pub step: usize,
+    /// Their number.
+    pub count: usize,
+}
+
+impl Places {
+    /// Every place of a line of `length`.
+    pub fn all(length: usize) -> Places {
+        Places { first: 0, step: 1, count: length }
+    }
+
+    /// Each of them.
+    pub fn iter(self) -> impl Iterator<Item = usize> {
+        (0..self.count).map(move |i| self.first + i * self.step)
+    }
 }
 
 impl Gaussian {
@@ -37,6 +61,68 @@ impl Gaussian {
         self.weights.len() - 1
     }
 
+    /// True where the sums at `places` alone are quicker than the transform of whole lines.
+    pub fn is_summed_at(&self, places: Places) -> bool {
+        self.reach() <= DIRECT_SUM_REACH * places.step
+    }
+
+    /// The convolution of every line of `length` numbers at `places` of it.
+    pub fn rows_at(&self, data: &[f64], length: usize, places: Places, periodic: bool) -> Vec<f64> {
+        let reach = self.reach();
+        let mut out = vec![0.0; data.len() / length * places.count];
+        out.par_chunks_mut(places.count.max(1)).zip(data.par_chunks(length)).for_each_init(
+            || vec![0.0; length + 2 * reach],
+            |wide, (out, line)| {
+                extend(wide, line, reach, periodic);
+                for (out, place) in out.iter_mut().zip(places.iter()) {
+                    let (left, right) = (&wide[place..=place + reach], &wide[place + reach..]);
+                    let pairs = left.iter().rev().zip(right);
+                    let both: f64 = pairs.zip(&self.weights).map(|((a, b), weight)| weight * (a + b)).sum();
+                    *out = both - self.weights[0] * left[reach];
+                }
+            },
+        );
+        out
+    }
+
+    /// The convolution of every column of a map with rows of `columns` numbers, less `offset` each, at `places`
+    /// of it.
+    pub fn columns_at(
+        &self,
+        data: &[f64],
+        offset: f64,
+        columns: usize,
+        places: Places,
+        periodic: bool,
+    ) -> Vec<f64> {
+        let rows = data.len() / columns;
+        let line = |row: i64| {
+            let inside = (0..rows as i64).contains(&row);
+            let row = row.rem_euclid(rows as i64) as usize;
+            (inside || periodic).then(|| &data[row * columns..(row + 1) * columns])
+        };
+        let mut out = vec![0.0; places.count * columns];
+        out.par_chunks_mut(ROWS * columns).enumerate().for_each(|(part, lines)| {
+            for from in (0..columns).step_by(TILE) {
+                let tile = from..columns.min(from + TILE);
+                for (i, out) in lines.chunks_mut(columns).enumerate() {
+                    let (row, out) =
+                        ((places.first + (part * ROWS + i) * places.step) as i64, &mut out[tile.clone()]);
+                    for (k, weight) in self.weights.iter().enumerate() {
+                        let k = k as i64;
+                        let sides = if k == 0 { [line(row), None] } else { [line(row - k), line(row + k)] };
+                        for side in sides.into_iter().flatten() {
+                            out.iter_mut()
+                                .zip(&side[tile.clone()])
+                                .for_each(|(z, a)| *z += weight * (a - offset));
+                        }
+                    }
+                }
+            }
+        });
+        out
+    }
+
     /// Convolves every line of `length` numbers; what lies beyond its ends is the line again if `periodic`,
     /// else 0.
     pub fn along_rows(&self, data: &mut [f64], length: usize, periodic: bool) {
@@ -50,7 +136,7 @@ impl Gaussian {
     /// The same down the columns of a map with rows of `columns` numbers.
     pub fn along_columns(&self, data: Vec<f64>, columns: usize, periodic: bool) -> Vec<f64> {
         if self.reach() <= DIRECT_SUM_REACH {
-            return self.sum_columns(&data, columns, periodic);
+            return self.columns_at(&data, 0.0, columns, Places::all(data.len() / columns), periodic);
         }
         let rows = data.len() / columns;
         let mut lines = transposed(&data, columns);
@@ -76,29 +162,6 @@ impl Gaussian {
                 }
             },
         );
-    }
-
-    fn sum_columns(&self, data: &[f64], columns: usize, periodic: bool) -> Vec<f64> {
-        let rows = data.len() / columns;
-        let line = |row: i64| {
-            let inside = (0..rows as i64).contains(&row);
-            let row = row.rem_euclid(rows as i64) as usize;
-            (inside || periodic).then(|| &data[row * columns..(row + 1) * columns])
-        };
-        let mut out = vec![0.0; data.len()];
-        out.par_chunks_mut(ROWS * columns).enumerate().for_each(|(part, lines)| {
-            for (i, out) in lines.chunks_mut(columns).enumerate() {
-                let row = (part * ROWS + i) as i64;
-                for (k, weight) in self.weights.iter().enumerate() {
-                    let k = k as i64;
-                    let sides = if k == 0 { [line(row), None] } else { [line(row - k), line(row + k)] };
-                    for side in sides.into_iter().flatten() {
-                        out.iter_mut().zip(side).for_each(|(z, a)| *z += weight * a);
-                    }
-                }
-            }
-        });
-        out
     }
 
     fn transform_rows(&self, data: &mut [f64], length: usize, periodic: bool) {
@@ -164,8 +227,19 @@ mod tests {
             gaussian.transform_rows(&mut waves, length, periodic);
             let worst = sums.iter().zip(&waves).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(worst < 1e-13, "{length} {cutoff} {periodic}: {worst}");
-            let columns = transposed(&gaussian.sum_columns(&transposed(&map, length), 20, periodic), 20);
-            assert!(sums.iter().zip(&columns).all(|(a, b)| (a - b).abs() < 1e-13));
+            let close = |a: &[f64], b: &[f64]| {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-13)
+            };
+            let down = transposed(&map, length);
+            let columns = gaussian.columns_at(&down, 0.0, 20, Places::all(length), periodic);
+            assert!(close(&sums, &transposed(&columns, 20)));
+            // at some places alone
+            let places = Places { first: 2, step: 5, count: (length - 3) / 5 };
+            let picked: Vec<f64> =
+                sums.chunks(length).flat_map(|line| places.iter().map(move |place| line[place])).collect();
+            assert!(close(&gaussian.rows_at(&map, length, places, periodic), &picked));
+            let some = gaussian.columns_at(&down, 0.0, 20, places, periodic);
+            assert!(close(&transposed(&some, 20), &picked));
         }
     }
 }

@@ -4,7 +4,7 @@ pub(crate) mod height_map;
 
 pub(crate) mod fft;
 pub(crate) mod filter;
-mod gaussian;
+pub(crate) mod gaussian;
 pub(crate) mod level;
 pub(crate) mod outliers;
 
