@@ -19,8 +19,16 @@ pub enum Error {
 impl Error {
     /// A result that could not be put on disk.
     pub fn disk(path: &Path, error: impl fmt::Display) -> Self {
-        Error::Unfinished(format!("cannot write {}: {error}", path.display()))
+        Error::Unfinished(without_numbers(format!("cannot write {}: {error}", path.display())))
     }
+}
+
+/// `text` without the numbers that an operating system gives its errors: ` (os error 2)`.
+pub fn without_numbers(text: String) -> String {
+    const BEGIN: &str = " (os error ";
+    let mut parts = text.split(BEGIN);
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.fold(first, |text, part| text + part.split_once(')').map_or(part, |(_, rest)| rest))
 }
 
 impl From<SearchError> for Error {
@@ -78,7 +86,7 @@ pub struct Place {
 impl InputError {
     /// An error without a place.
     pub fn new(message: impl Into<String>) -> Self {
-        InputError { message: message.into(), help: None, place: None }
+        InputError { message: without_numbers(message.into()), help: None, place: None }
     }
 
     /// Adds a way out.
@@ -118,6 +126,19 @@ impl InputError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_numbers_of_an_operating_system_stay_out() {
+        let error = std::io::Error::from_raw_os_error(2);
+        assert!(error.to_string().contains("os error"));
+        for text in [
+            InputError::new(format!("a: {error}; b: {error}")).to_string(),
+            Error::disk(Path::new("file"), &error).to_string(),
+        ] {
+            assert!(!text.contains("os error") && !text.contains(')'), "{text}");
+        }
+        assert_eq!(without_numbers("a (b) c (os error 17); d".into()), "a (b) c; d");
+    }
 
     /// The form in which `main` prints an error that it returns.
     #[test]

@@ -43,6 +43,9 @@ fn serde_is_put_into_plain_words() {
     let (message, help) = reword("unknown field `contact`, expected one of `element`, `newton_tolerance`");
     assert_eq!(message, "the key `contact` is gone");
     assert!(help.unwrap().contains("leave numerics.contact out"));
+    let (message, help) = reword("unknown field `force`, expected one of `pressure`, `separation`, `unload`");
+    assert_eq!(message, "unknown key `force`");
+    assert!(help.unwrap().contains("load.pressure = force / area"));
     assert!(reword("unknown field `contact`, expected `tool`").0.contains("unknown key"));
     assert_eq!(reword("missing field `tool`").0, "`tool` is missing");
     assert_eq!(

@@ -72,14 +72,13 @@ pub fn new(args: &New) -> Result<(), Error> {
     let mut options = std::fs::OpenOptions::new();
     options.write(true).create(true).truncate(true).create_new(!args.force);
     let error = |e: std::io::Error| {
-        let help = if e.kind() == std::io::ErrorKind::AlreadyExists {
-            format!(
+        if e.kind() == std::io::ErrorKind::AlreadyExists {
+            return InputError::new(format!("{} exists already", path.display())).help(format!(
                 "FILE is the scene to write: give another name, asperity new {name} FILE, or --force to replace it"
-            )
-        } else {
-            "give a file in a folder you may write to".into()
-        };
-        InputError::new(format!("cannot write {}: {e}", path.display())).help(help)
+            ));
+        }
+        InputError::new(format!("cannot write {}: {e}", path.display()))
+            .help("give a file in a folder that exists and that you may write to")
     };
     options.open(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(error)?;
     terminal::say(&format!(

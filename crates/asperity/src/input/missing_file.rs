@@ -1,4 +1,4 @@
-//! Files that cannot be opened, told without the words of the system.
+//! Files that cannot be opened, told with the name that was meant.
 
 use super::suggest::nearest;
 use crate::error::InputError;
@@ -20,14 +20,8 @@ pub fn unreadable(path: &Path, error: &io::Error) -> InputError {
                 None => InputError::new(message),
             }
         }
-        _ => InputError::new(format!("cannot read {name}: {}", reason(error))),
+        _ => InputError::new(format!("cannot read {name}: {}", error.to_string().to_lowercase())),
     }
-}
-
-/// The words of an error, without the number that the system gives it.
-fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or(&text).to_lowercase()
 }
 
 /// The file beside `path` whose name is nearest to its.

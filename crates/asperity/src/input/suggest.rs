@@ -15,12 +15,22 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates.iter().filter(near).min_by_key(|c| (!longer_word(c), distance(&word, c))).copied()
 }
 
-/// Keys that went, each with a key of the table it stood in, and what to do.
-const GONE: [(&str, &str, &str); 1] = [(
-    "contact",
-    "newton_tolerance",
-    "the tool pushes by a penalty, for whose penetration the depth is corrected: leave numerics.contact out",
-)];
+/// Keys that are asked for and are none, each with a key of the table it would stand in, the message, and what
+/// to do.
+const EXPLAINED: [(&str, &str, &str, &str); 2] = [
+    (
+        "contact",
+        "newton_tolerance",
+        "the key `contact` is gone",
+        "the tool pushes by a penalty, for whose penetration the depth is corrected: leave numerics.contact out",
+    ),
+    (
+        "force",
+        "separation",
+        "unknown key `force`",
+        "give load.pressure = force / area of the map; known here: pressure, separation, unload",
+    ),
+];
 
 /// A message of serde in the words of a scene, and help where there is some.
 pub fn reword(message: &str) -> (String, Option<String>) {
@@ -29,9 +39,10 @@ pub fn reword(message: &str) -> (String, Option<String>) {
     let what = [("unknown field", "key"), ("unknown variant", "value")];
     let unknown = what.iter().find(|(start, _)| message.starts_with(start));
     if let (Some(_), [word, known @ ..]) = (unknown, quoted.as_slice())
-        && let Some((_, _, help)) = GONE.iter().find(|(key, table, _)| key == word && known.contains(table))
+        && let Some((_, _, said, help)) =
+            EXPLAINED.iter().find(|(key, table, ..)| key == word && known.contains(table))
     {
-        return (format!("the key `{word}` is gone"), Some((*help).into()));
+        return ((*said).into(), Some((*help).into()));
     }
     match (unknown, quoted.as_slice()) {
         (Some((_, noun)), [word, known @ ..]) => {
