@@ -15,8 +15,8 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates.iter().filter(near).min_by_key(|c| (!longer_word(c), distance(&word, c))).copied()
 }
 
-/// Keys that are asked for and are none, each with a key of the table it would stand in, the message, and what
-/// to do.
+/// Keys that are asked for and are none, each with a key of the table it would stand in, the message, and
+/// what to do.
 const EXPLAINED: [(&str, &str, &str, &str); 2] = [
     (
         "contact",

@@ -34,8 +34,8 @@ fn ceiling(x: f64) -> usize {
 }
 
 impl Raster {
-    /// Paints the part of `mesh` in `window`; where `mirrored`, the window reaches as far to the left of the axis
-    /// as to its right, and shows the mirror image there.
+    /// Paints the part of `mesh` in `window`; where `mirrored`, the window reaches as far to the left of the
+    /// axis as to its right, and shows the mirror image there.
     pub fn draw(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
         let mut raster = Raster { size, dots: vec![None; size[0] * size[1]] };
         let span = window.size();

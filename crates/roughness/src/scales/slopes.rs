@@ -7,8 +7,8 @@ use crate::surface::cells;
 
 /// Shares of the surface that are less steep than the quantiles of [`Slopes`].
 pub const QUANTILES: [f64; 5] = [0.01, 0.1, 0.5, 0.9, 0.99];
-/// Bins of the distribution of squared slopes: the bits of the mantissa that are told apart, so that an octave
-/// has 32 of equal width; the octaves below the mean square, and all bins.
+/// Bins of the distribution of squared slopes: the bits of the mantissa that are told apart, so that an
+/// octave has 32 of equal width; the octaves below the mean square, and all bins.
 const BITS: u32 = 5;
 const OCTAVES_BELOW: u64 = 24;
 const BINS: usize = 1280;

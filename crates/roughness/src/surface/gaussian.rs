@@ -85,8 +85,8 @@ impl Gaussian {
         out
     }
 
-    /// The convolution of every column of a map with rows of `columns` numbers, less `offset` each, at `places`
-    /// of it.
+    /// The convolution of every column of a map with rows of `columns` numbers, less `offset` each, at
+    /// `places` of it.
     pub fn columns_at(
         &self,
         data: &[f64],
