@@ -124,6 +124,8 @@ fn tiles_are_maps_of_their_places() {
         let end = place.run(&[args, &keys].concat());
         assert_eq!(end.status, 0, "{}", end.err);
     }
+    let said = std::fs::read_to_string(place.path("tiles/joint.json")).unwrap();
+    assert!(said.contains("4 tiles of 20 x 18 points"), "{said}");
     let [tiles, maps] = ["tiles", "maps"].map(|folder| rows(&place, &format!("{folder}/joint.csv")));
     assert_eq!(tiles.len(), maps.len());
     let mut spread: f64 = 0.0;

@@ -98,7 +98,14 @@ fn places(scene: &RoughScene, whole: Vec<Surface>) -> Result<Vec<Surface>, Input
     let mut places = Vec::new();
     for surface in whole {
         let mut tiles = surface.tiles(count).map_err(|e| scene.error(&SceneError::new("joint.tiles", e)))?;
-        tiles[0].notes = surface.notes;
+        let mut notes = surface.notes;
+        notes.push(format!(
+            "the map is cut into {} tiles of {} x {} points: heights, areas and pressures are of a tile",
+            tiles.len(),
+            tiles[0].map.columns(),
+            tiles[0].map.rows()
+        ));
+        tiles[0].notes = notes;
         places.extend(tiles);
     }
     Ok(places)

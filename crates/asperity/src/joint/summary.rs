@@ -66,13 +66,13 @@ row! {
         surfaces: Vec<String> = surfaces,
         /// Interpretation of the files: dialect, columns, units, lines; and remarks on them.
         understood: Vec<String> = Vec::new(),
-        /// Points along x and y.
+        /// Points along x and y of one map, of one tile where the map is cut.
         pixels: [usize; 2] = [surface.map.columns(), surface.map.rows()],
         /// Distance of points along x and y.
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
-        /// Root mean square height Sq of the first map.
+        /// Root mean square height Sq of the first map or tile.
         sq_um: f64 = surface.parameters.sq / MICROMETRE,
-        /// Area over which the pressure is nominal, of one map, µm².
+        /// Area over which the pressure is nominal, of one map or tile, µm².
         nominal_area_um2: f64 = path.nominal_area / MICROMETRE / MICROMETRE,
         /// E* = E/(1 - ν²), MPa.
         reduced_modulus_MPa: f64 = scene.material.elastic().reduced_modulus() / MEGAPASCAL,
