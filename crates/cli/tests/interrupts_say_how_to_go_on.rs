@@ -69,11 +69,14 @@ fn a_rough_surface_and_a_fit_say_that_they_begin_anew() {
     for (kind, command) in [("rough", "rough"), ("fit", "identify")] {
         assert_eq!(place.run(&["new", kind]).status, 0);
         let file = format!("{kind}.toml");
-        let (status, said) =
-            interrupted(&place, &[command, &file, "--out", "out"], || place.path("out.partial").exists());
+        // a fit takes two seconds: on a busy machine it may be done before it is interrupted
+        let mut tries = (0..3).map(|_| {
+            let _ = std::fs::remove_dir_all(place.path("out"));
+            interrupted(&place, &[command, &file, "--out", "out"], || place.path("out.partial").exists())
+        });
+        let (status, said) = tries.find(|(status, _)| *status != Some(0)).unwrap();
         assert_eq!(status, Some(1), "{command}: {said}");
         assert!(said.contains("stopped") && said.contains("the same command begins anew"), "{said}");
-        let _ = std::fs::remove_dir_all(place.path("out"));
     }
 }
 
