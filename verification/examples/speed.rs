@@ -204,7 +204,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     ));
     let reference = scene(Accuracy::Reference)?;
     let [one, two] = [on_threads(1, || least(&reference, 2))?, on_threads(2, || least(&reference, 2))?];
-    report.line(&format!("| `reference`, core seconds | {one:.2} | 2.5 | 1 |"));
+    report.line(&format!("| `reference`, one round, core seconds | {one:.2} | 2.5 | 1 |"));
     report.line(&format!(
         "| run over its floor, draft / standard / reference | {} | 4 / 3.5 / 3 | 2 |",
         over.join(" / ")
