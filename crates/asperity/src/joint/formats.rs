@@ -1,6 +1,7 @@
 //! The files of a joint: CSV, JSON, charts, and the law as other programs read it.
 
 use super::press_joint::Joint;
+use super::summary::ExponentialFit;
 use super::table::JointRow;
 use crate::crush::Phase;
 use crate::error::Error;
@@ -23,8 +24,10 @@ impl Joint {
         sink.write("joint.csv", |out| write_csv(out, &self.rows))?;
         let law = self.interface_law();
         let continued = InterfaceLaw { pressure: self.continued(&law.pressure), ..law.clone() };
-        let calculix =
-            InterfaceLaw { head: continued.head.clone() + &first_increment(&law), ..continued.clone() };
+        let calculix = InterfaceLaw {
+            head: continued.head.clone() + &formula(self.summary.fit_pressure.as_ref(), &law),
+            ..continued.clone()
+        };
         sink.text("calculix.inp", &calculix.calculix())?;
         sink.text("abaqus.inp", &continued.abaqus())?;
         sink.text("moose.csv", &law.moose())?;
@@ -139,17 +142,25 @@ impl Joint {
     }
 }
 
-/// The load that the first increment of a model with the formula has to carry, for the head; nothing without
-/// heat.
+/// The formula of `JOINT_HEAT` for the head: the range in which it was fitted, and the load that the first
+/// increment of a model with it has to carry; nothing without heat.
 ///
 /// Tried in CalculiX 2.20: two blocks that touch, pressed by less than the formula gives at overclosure 0,
 /// fly apart, and the step ends in too many cutbacks; from one and a half times that on it converges.
-fn first_increment(law: &InterfaceLaw) -> String {
-    match law.exponential {
-        Some([touching, _]) if !law.heat.is_empty() => format!(
-            " With JOINT_HEAT the first increment has to carry more than {} MPa, the pressure of the formula at \
-             overclosure 0: faces that are pressed by less part, and the step fails.",
+fn formula(fit: Option<&ExponentialFit>, law: &InterfaceLaw) -> String {
+    match (fit, law.exponential) {
+        (Some(fit), Some([touching, _])) if !law.heat.is_empty() => format!(
+            " The closure of JOINT_HEAT is a formula, fitted from {} to {} MPa, which it meets to {} % of the \
+             pressure; beyond that range its closure is not that of the joint. The first increment has to carry \
+             more than {} MPa, the pressure of the formula at overclosure 0: faces that are pressed by less part, \
+             and the step fails.",
+            rounded(fit.range_MPa[0]),
+            rounded(fit.range_MPa[1]),
+            rounded(1e2 * fit.residual),
             rounded(touching / MEGAPASCAL)
+        ),
+        (None, _) if !law.heat.is_empty() => String::from(
+            " No exponential is near enough to the law, so that the closure of JOINT_HEAT is a line to its last row.",
         ),
         _ => String::new(),
     }

@@ -91,7 +91,12 @@ impl Joint {
             row("conductance = a (p/MPa)^b, W/(m² K)", "fit_conductance", ["factor", "exponent"]),
         ];
         let head = ["formula", "a", "b", "pressures, MPa", "residual"];
-        page::table("Formulas through the loads that touch in spots, up to 30 % of the area.", &head, &rows)
+        page::table(
+            "Formulas through loads that touch in spots, up to 30 % of the area, each over the widest range \
+             that it meets to 20 %.",
+            &head,
+            &rows,
+        )
     }
 
     /// The charts with the names of their files.
@@ -101,16 +106,12 @@ impl Joint {
         let flows = self.summary.limit_MPa.is_some();
         let back =
             Series { dash: Some(Dash::Dashed), ..Series::line("back, elastic", unloaded.map(law).collect()) };
-        let mut curves =
-            vec![Series::line("loading", self.rows.iter().take(1).chain(self.loaded()).map(law).collect())];
+        // the law is smooth between its loads
+        let loading = self.summary.law.iter().map(|row| [row.approach_um, row.pressure_MPa]);
+        let mut curves = vec![Series::line("loading", loading.collect())];
         curves.extend(flows.then_some(back));
         if let Some(fit) = &self.summary.fit_pressure {
-            let touch = self.summary.first_touch_gap_um;
-            let fitted = |row: &JointRow| {
-                [row.approach_um, fit.pressure_MPa * ((row.approach_um - touch) / fit.length_um).exp()]
-            };
-            let inside = self.loaded().filter(|row| row.pressure_MPa <= fit.range_MPa[1] * (1.0 + 1e-9));
-            let points = inside.map(fitted).collect();
+            let points = fit.points(self.summary.first_touch_gap_um).collect();
             curves.push(Series { dash: Some(Dash::Dotted), ..Series::line("exponential fit", points) });
         }
         let pressure = Chart::new("approach from first touch (µm)", "nominal pressure (MPa)", curves)

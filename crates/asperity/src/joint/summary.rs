@@ -13,13 +13,16 @@ use asperity_roughness::joint::{Exponential, Fits, JointPath, Law, Power};
 
 /// Relative error of straight lines between the rows of a table for another program.
 pub(super) const TABLE_TOLERANCE: f64 = 5e-3;
+/// Pieces of the line that is drawn of a fit.
+const FIT_POINTS: usize = 64;
 /// Bounds this many times apart say little.
 const WIDE_BOUNDS: f64 = 3.0;
 /// Largest error of pixels that is no warning.
 const SEEN_ERROR: f64 = 0.1;
 
 row! {
-    /// p = pressure exp(-gap/length) through the loads that touch in spots.
+    /// p = pressure exp(-gap/length) through loads that touch in spots, over the widest range that it meets
+    /// to 20 %.
     ExponentialFit(found: &Exponential, sq: f64) {
         /// Pressure where the gap is extrapolated to 0, MPa.
         pressure_MPa: f64 = found.pressure / MEGAPASCAL,
@@ -34,8 +37,21 @@ row! {
     }
 }
 
+impl ExponentialFit {
+    /// Approach (µm) since a first touch at mean gap `touch` (µm) and pressure (MPa), over the range of the
+    /// fit.
+    pub(super) fn points(&self, touch: f64) -> impl Iterator<Item = [f64; 2]> {
+        let [low, high] = self.range_MPa;
+        (0..=FIT_POINTS).map(move |i| {
+            let pressure = low * (high / low).powf(i as f64 / FIT_POINTS as f64);
+            [touch + self.length_um * (pressure / self.pressure_MPa).ln(), pressure]
+        })
+    }
+}
+
 row! {
-    /// y = factor (p/MPa)^exponent through the loads that touch in spots.
+    /// y = factor (p/MPa)^exponent through loads that touch in spots, over the widest range that it meets
+    /// to 20 %.
     PowerFit(found: &Power, unit: f64) {
         /// y at 1 MPa.
         factor: f64 = found.factor * MEGAPASCAL.powf(found.exponent) / unit,
@@ -206,11 +222,38 @@ impl Summary {
         }
         if let Some(fit) = &self.fit_stiffness {
             text += &format!(
-                "; in spots the stiffness grows as p^{:.3} (± {} %)",
+                "; from {} to {} MPa the stiffness grows as p^{:.3} (± {} %)",
+                number(fit.range_MPa[0]),
+                number(fit.range_MPa[1]),
                 fit.exponent,
                 rounded(100.0 * fit.residual)
             );
         }
         text + ". " + &self.bounds[..1].to_uppercase() + &self.bounds[1..] + "."
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// p = p₀ exp(-g/l) at every point of the line that is drawn, from one end of its range to the other.
+    #[test]
+    fn a_fit_is_drawn_over_its_range_alone() {
+        let fit = ExponentialFit {
+            pressure_MPa: 2e3,
+            length_um: 0.3,
+            length_over_sq: 0.2,
+            range_MPa: [0.5, 80.0],
+            residual: 0.1,
+        };
+        let points: Vec<_> = fit.points(4.0).collect();
+        for [approach, pressure] in &points {
+            let exact = 2e3 * ((approach - 4.0) / 0.3).exp();
+            assert!((pressure / exact - 1.0).abs() < 1e-12, "{pressure} {exact}");
+        }
+        let ends = [points[0][1], points[points.len() - 1][1]];
+        assert!((ends[0] - 0.5).abs() < 1e-12 && (ends[1] - 80.0).abs() < 1e-12, "{ends:?}");
+        assert!(points.windows(2).all(|two| two[1][0] > two[0][0]));
     }
 }

@@ -7,6 +7,8 @@ use asperity_numerics::least_squares::solve;
 const MOST_AREA: f64 = 0.3;
 /// Fewer loads are no fit.
 const FEWEST: usize = 4;
+/// A formula is given for no more loads than it meets so closely, in root mean square.
+const LARGEST_RESIDUAL: f64 = 0.2;
 
 /// A straight line ln y = a + b x through points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +45,8 @@ pub struct Power {
     pub fit: Fit,
 }
 
-/// The formulas of a joint; none where too few loads touch in spots.
+/// The formulas of a joint, each over the widest range of loads in spots that it meets to 20 %; none where
+/// too few do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fits {
     /// Pressure over mean gap.
@@ -53,11 +56,17 @@ pub struct Fits {
 }
 
 impl Fit {
-    /// Through points (pressure, x, y) with y > 0.
+    /// Through the widest range of neighbouring points (pressure, x, y), y > 0, that a line meets to
+    /// [`LARGEST_RESIDUAL`]; of two as wide, that of higher pressures.
     fn new(points: &[[f64; 3]]) -> Option<Fit> {
-        if points.len() < FEWEST {
-            return None;
-        }
+        let n = points.len();
+        let parts = (0..n).flat_map(|from| (from + FEWEST..=n).map(move |to| &points[from..to]));
+        let close = parts.filter_map(Fit::of_all).filter(|fit| fit.residual <= LARGEST_RESIDUAL);
+        close.max_by(|a, b| (a.range[1] / a.range[0]).total_cmp(&(b.range[1] / b.range[0])))
+    }
+
+    /// Through all of the points.
+    fn of_all(points: &[[f64; 3]]) -> Option<Fit> {
         let rows: Vec<_> = points.iter().map(|[_, x, y]| ([1.0, *x], y.ln(), 1.0)).collect();
         let [constant, slope] = solve(&rows)?;
         let off = |[_, x, y]: &[f64; 3]| ((constant + slope * x).exp() / y - 1.0).powi(2);
@@ -68,7 +77,7 @@ impl Fit {
 }
 
 impl Power {
-    /// Through points (pressure in Pa, y), pressures rising; None of fewer than four.
+    /// Through points (pressure in Pa, y), pressures rising; None where no four neighbours are near a power.
     pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> Option<Power> {
         let points: Vec<_> = points.into_iter().map(|[p, y]| [p, p.ln(), y]).collect();
         let fit = Fit::new(&points)?;

@@ -212,3 +212,24 @@ fn the_mean_of_several_maps_states_how_far_they_differ() {
     assert_eq!(mean.loading[0].repeatability, None);
     assert_eq!(JointPath::mean(&paths[..1]).as_ref(), Some(&paths[0]));
 }
+
+/// A law of two powers, p^0.5 over a decade and p^2 over the next two: one line through all is off by far
+/// more than 20 %, so that the formula is the second, from a little below where it begins.
+#[test]
+fn a_formula_goes_over_the_widest_range_that_it_meets() {
+    let two = |p: f64| if p < 1.0 { p.sqrt() } else { p * p };
+    let loads: Vec<f64> = (-8..=16).map(|i| 10f64.powf(f64::from(i) / 8.0)).collect();
+    let found = Power::new(loads.iter().map(|p| [*p, two(*p)])).unwrap();
+    assert!((found.exponent - 2.0).abs() < 0.1 && found.fit.residual <= 0.2, "{found:?}");
+    assert!(
+        (found.fit.range[1] - 100.0).abs() < 1e-9 && (0.1..=1.0).contains(&found.fit.range[0]),
+        "{found:?}"
+    );
+    let whole = Power::new(loads.iter().map(|p| [*p, 3.0 * p.powf(0.8)])).unwrap();
+    assert!((whole.exponent - 0.8).abs() < 1e-12 && (whole.factor - 3.0).abs() < 1e-12, "{whole:?}");
+    assert!((whole.fit.range[0] - 0.1).abs() < 1e-12 && whole.fit.residual < 1e-12, "{whole:?}");
+    // ten times up and down is near no power
+    let rough = (0..8).map(|i| [f64::from(i + 1), if i % 2 == 0 { 1.0 } else { 10.0 }]);
+    assert_eq!(Power::new(rough), None);
+    assert_eq!(Power::new([1.0, 2.0, 3.0].map(|p| [p, p])), None);
+}
