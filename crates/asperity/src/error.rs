@@ -17,14 +17,19 @@ pub enum Error {
 }
 
 impl Error {
+    /// Work that an error of the operating system ended, without the number that the system gives it.
+    pub fn unfinished(text: impl Into<String>) -> Self {
+        Error::Unfinished(without_numbers(text.into()))
+    }
+
     /// A result that could not be put on disk.
     pub fn disk(path: &Path, error: impl fmt::Display) -> Self {
-        Error::Unfinished(without_numbers(format!("cannot write {}: {error}", path.display())))
+        Error::unfinished(format!("cannot write {}: {error}", path.display()))
     }
 }
 
 /// `text` without the numbers that an operating system gives its errors: ` (os error 2)`.
-pub fn without_numbers(text: String) -> String {
+fn without_numbers(text: String) -> String {
     const BEGIN: &str = " (os error ";
     let mut parts = text.split(BEGIN);
     let first = parts.next().unwrap_or_default().to_string();

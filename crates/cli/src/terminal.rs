@@ -1,6 +1,6 @@
 //! Talking to a person: the one place that prints.
 
-use asperity::error::{Error, without_numbers};
+use asperity::error::Error;
 use std::io::{self, ErrorKind, Write};
 
 /// A line on stdout.
@@ -27,7 +27,7 @@ pub fn print(bytes: &[u8]) -> Result<(), Error> {
 pub fn written(outcome: io::Result<()>) -> Result<(), Error> {
     match outcome {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Error::Unfinished(without_numbers(format!("cannot write to standard output: {error}"))))
+            Err(Error::unfinished(format!("cannot write to standard output: {error}")))
         }
         _ => Ok(()),
     }

@@ -7,7 +7,7 @@
 pub use asperity_formats::journal;
 
 use crate::batch::journal::{Journal, Opened};
-use crate::error::{Error, InputError, without_numbers};
+use crate::error::{Error, InputError};
 use crate::progress::{Observer, Progress};
 use crate::results::output::open_journal;
 use serde::Serialize;
@@ -234,9 +234,9 @@ pub fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize
 
 fn refused(journal: Option<&Path>, error: &io::Error) -> Error {
     let name = journal.map_or_else(String::new, |path| format!(" {}", path.display()));
-    Error::Unfinished(without_numbers(format!(
+    Error::unfinished(format!(
         "cannot write the journal{name}: {error}; it keeps every finished case, and the same command resumes from it"
-    )))
+    ))
 }
 
 /// The definition that all of `parts` share, and what each of them holds. `read` gives both of a folder.
