@@ -146,19 +146,14 @@ const SUMS: usize = 8;
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; SUMS];
-    let ([a, rest_of_a], [b, rest_of_b]) = (in_chunks(a), in_chunks(b));
-    for (a, b) in a.chunks_exact(SUMS).zip(b.chunks_exact(SUMS)) {
+    let (a, b) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a.zip(b) {
         for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
             *sum += a * b;
         }
     }
-    let rest: f64 = rest_of_a.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
     sums.iter().sum::<f64>() + rest
-}
-
-/// Whole chunks of `SUMS`, and the rest.
-fn in_chunks(a: &[f64]) -> [&[f64]; 2] {
-    a.split_at(a.len() / SUMS * SUMS).into()
 }
 
 #[cfg(test)]

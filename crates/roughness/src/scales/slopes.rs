@@ -156,11 +156,10 @@ fn squares(map: &HeightMap, axis: usize, step: usize) -> [Option<f64>; 2] {
             if axis == 0 {
                 wide.clear();
                 wide.extend_from_slice(map.row(y));
-                first.add_two(&wide, &wide[step..]);
                 if map.periodic() {
                     wide.extend((0..2 * step).map(|x| map.row(y)[x % n]));
-                    first.add_two(&wide[n - step..n], &wide[n..]);
                 }
+                first.add_two(&wide[..n], &wide[step..]);
                 second.add_three(&wide, &wide[step..], wide.get(2 * step..).unwrap_or(&[]));
                 continue;
             }

@@ -3,6 +3,7 @@
 use crate::surface::gaussian::{Gaussian, Places};
 use crate::surface::height_map::{HeightMap, MapError};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use thiserror::Error;
 
 /// The reason why a filter cannot be applied.
@@ -95,7 +96,7 @@ fn smoothed(map: &HeightMap, cutoff: f64, kept: [Places; 2]) -> Vec<f64> {
         }
         let mut data: Vec<f64> = data.par_iter().map(|z| z - offset).collect();
         along_x.along_rows(&mut data, columns, periodic);
-        picked(along_y.along_columns(data, columns, periodic), columns, kept)
+        picked(along_y.along_columns(data, columns, periodic).into(), columns, kept).into_owned()
     };
     if map.missing() > 0 {
         let over_measured = |value: &(dyn Fn(f64) -> f64 + Sync)| -> Vec<f64> {
@@ -103,8 +104,8 @@ fn smoothed(map: &HeightMap, cutoff: f64, kept: [Places; 2]) -> Vec<f64> {
         };
         let mut mean = blurred(&over_measured(&|z| z - reference), 0.0);
         let weights = blurred(&over_measured(&|_| 1.0), 0.0);
-        let own = picked(map.heights().to_vec(), columns, kept);
-        mean.par_iter_mut().zip(&weights).zip(&own).for_each(|((mean, weight), z)| {
+        let own = picked(map.heights().into(), columns, kept);
+        mean.par_iter_mut().zip(&weights).zip(&*own).for_each(|((mean, weight), z)| {
             *mean = if z.is_nan() { f64::NAN } else { reference + *mean / weight };
         });
         return mean;
@@ -123,7 +124,7 @@ fn smoothed(map: &HeightMap, cutoff: f64, kept: [Places; 2]) -> Vec<f64> {
 }
 
 /// The numbers at `kept` along x and y of rows of `columns`.
-fn picked(data: Vec<f64>, columns: usize, kept: [Places; 2]) -> Vec<f64> {
+fn picked(data: Cow<'_, [f64]>, columns: usize, kept: [Places; 2]) -> Cow<'_, [f64]> {
     if kept == [Places::all(columns), Places::all(data.len() / columns)] {
         return data;
     }
