@@ -37,19 +37,24 @@ conductivity = ["50 W/(m K)", "150 W/(m K)"]
 maps = false
 "#;
 
-/// Two cubes of 1 mm, the upper on the lower, which bend by nothing.
-fn blocks() -> String {
+/// A modulus that bends by nothing, in MPa.
+const RIGID: f64 = 1e11;
+
+/// Two cubes of 1 mm, the upper on the lower, of this modulus in MPa.
+fn blocks(modulus: f64) -> String {
     let mut deck = String::from("*NODE\n");
     for i in 0..16 {
         let (x, y) = [(0, 0), (1, 0), (1, 1), (0, 1)][i % 4];
         let z = [0, 1, 1, 2][i / 4];
         let _ = writeln!(deck, "{}, {x}, {y}, {z}", i + 1);
     }
+    let material = format!("*MATERIAL, NAME=BODY\n*ELASTIC\n{modulus:e}, 0.\n");
     deck + "*ELEMENT, TYPE=C3D8, ELSET=LOW\n1, 1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=C3D8, ELSET=HIGH\n2, 9,10,11,12,13,14,15,16\n\
             *ELSET, ELSET=ALL\nLOW, HIGH\n*NSET, NSET=BASE\n1,2,3,4\n*NSET, NSET=TOP\n13,14,15,16\n*NSET, NSET=FACE\n9\n\
             *NSET, NSET=EVERY, GENERATE\n1,16\n*SURFACE, NAME=SLAVE, TYPE=ELEMENT\nHIGH, S1\n\
-            *SURFACE, NAME=MASTER, TYPE=ELEMENT\nLOW, S2\n*MATERIAL, NAME=RIGID\n*ELASTIC\n1e11, 0.\n*CONDUCTIVITY\n1e11\n\
-            *EXPANSION\n0.\n*SPECIFIC HEAT\n1.\n*DENSITY\n1e-9\n*SOLID SECTION, ELSET=ALL, MATERIAL=RIGID\n\
+            *SURFACE, NAME=MASTER, TYPE=ELEMENT\nLOW, S2\n"
+        + &material
+        + "*CONDUCTIVITY\n1e11\n*EXPANSION\n0.\n*SPECIFIC HEAT\n1.\n*DENSITY\n1e-9\n*SOLID SECTION, ELSET=ALL, MATERIAL=BODY\n\
             *INCLUDE, INPUT=calculix.inp\n"
 }
 
@@ -116,10 +121,12 @@ fn two_blocks_close_and_conduct_as_the_table_says() {
         .collect();
     // five loads over the upper two decades of the law
     let chosen: Vec<[f64; 3]> = (1..=5).map(|k| loading[loading.len() - 1 - 4 * (5 - k)]).collect();
-    let steps = |kind: &str, print: &str| {
+    let steps = |kind: &str, first: f64, print: &str| {
         chosen.iter().fold(String::new(), |mut text, [p, ..]| {
-            let _ =
-                write!(text, "*STEP, INC=500\n{kind}\n1., 1.\n*DLOAD\n2, P2, {p:.9e}\n{print}\n*END STEP\n");
+            let _ = write!(
+                text,
+                "*STEP, INC=500\n{kind}\n{first}, 1.\n*DLOAD\n2, P2, {p:.9e}\n{print}\n*END STEP\n"
+            );
             text
         })
     };
@@ -127,22 +134,37 @@ fn two_blocks_close_and_conduct_as_the_table_says() {
     let pair = |interaction: &str, kind: &str| {
         format!("*CONTACT PAIR, INTERACTION={interaction}, TYPE={kind}\nSLAVE, MASTER\n{supports}")
     };
-    let mechanics =
-        blocks() + &pair("JOINT", "NODE TO SURFACE") + &steps("*STATIC", "*NODE PRINT, NSET=FACE\nU");
+    let mechanics = blocks(RIGID)
+        + &pair("JOINT", "NODE TO SURFACE")
+        + &steps("*STATIC", 1.0, "*NODE PRINT, NSET=FACE\nU");
     let closure = run(&place, "mechanics", &mechanics, "displacements", 3);
-    let heat = blocks()
-        + &pair("JOINT_HEAT", "SURFACE TO SURFACE")
-        + "BASE, 11, 11, 0.\nTOP, 11, 11, 10.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 0.\n"
-        + &steps(
-            "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE",
-            "*NODE PRINT, NSET=BASE, TOTALS=ONLY\nRFL",
-        );
-    let flux = run(&place, "heat", &heat, "total heat generation", 0);
+    // as the head of the file says: the first increment a hundredth of the load, of steel blocks
+    let steel = blocks(210e3)
+        + &pair("JOINT", "NODE TO SURFACE")
+        + &steps("*STATIC", 0.01, "*NODE PRINT, NSET=FACE\nU");
+    let steel = run(&place, "steel", &steel, "displacements", 3);
+    let heat = |interaction: &str| {
+        blocks(RIGID)
+            + &pair(interaction, "SURFACE TO SURFACE")
+            + "BASE, 11, 11, 0.\nTOP, 11, 11, 10.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 0.\n"
+            + &steps(
+                "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE",
+                1.0,
+                "*NODE PRINT, NSET=BASE, TOTALS=ONLY\nRFL",
+            )
+    };
+    let fluxes = ["JOINT_HEAT", "JOINT_HEAT_EXPONENTIAL"]
+        .map(|interaction| run(&place, interaction, &heat(interaction), "total heat generation", 0));
     for (k, [pressure, approach, conductance]) in (1..).zip(&chosen) {
         let closed = -1e3 * closure[&k];
         assert!((closed / approach - 1.0).abs() < 0.01, "{pressure} MPa: {closed} um, {approach} um");
-        // mW through 1 mm² at 10 K
-        let h = -1e3 * flux[&k] / 10.0;
-        assert!((h / conductance - 1.0).abs() < 0.01, "{pressure} MPa: {h}, {conductance} W/(m² K)");
+        // the lower block has given way by p/E of its 1 mm
+        let closed = -1e3 * (steel[&k] + pressure / 210e3);
+        assert!((closed / approach - 1.0).abs() < 0.01, "{pressure} MPa: {closed} um, {approach} um");
+        for flux in &fluxes {
+            // mW through 1 mm² at 10 K
+            let h = -1e3 * flux[&k] / 10.0;
+            assert!((h / conductance - 1.0).abs() < 0.01, "{pressure} MPa: {h}, {conductance} W/(m² K)");
+        }
     }
 }

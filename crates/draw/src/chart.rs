@@ -69,7 +69,7 @@ impl Series {
     }
 }
 
-/// A chart of lines over common axes that start at 0 or below.
+/// A chart of lines over common axes: they start at 0 or below, or are logarithmic.
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// Name of the horizontal axis with its unit.
@@ -81,6 +81,8 @@ pub struct Chart {
     /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if
     /// empty.
     pub title: String,
+    /// True where both axes are logarithmic; points without a logarithm are left out.
+    pub logarithmic: bool,
 }
 
 impl Chart {
@@ -91,7 +93,8 @@ impl Chart {
         series: impl IntoIterator<Item = Series>,
     ) -> Chart {
         let series = series.into_iter().collect();
-        Chart { x_label: x_label.into(), y_label: y_label.into(), series, title: String::new() }
+        let (x_label, y_label) = (x_label.into(), y_label.into());
+        Chart { x_label, y_label, series, title: String::new(), logarithmic: false }
     }
 
     /// True where no line has a point to show.
@@ -127,6 +130,8 @@ pub fn font(size: u32) -> TextStyle<'static> {
 
 /// Most steps of an axis: the numbers of more would touch.
 const STEPS: f64 = 6.0;
+/// Powers of ten that are written out on an axis of logarithms.
+const WRITTEN_POWERS: std::ops::RangeInclusive<f64> = -3.0..=4.0;
 /// Share of a step by which a value may pass the end of an axis: what no eye sees adds no step.
 const CLOSE: f64 = 1e-3;
 
@@ -190,8 +195,12 @@ impl ValueFormatter<f64> for Axis {
         if !self.logarithmic {
             return scale::label(*value, self.step);
         }
-        let decimals = (-value.round()).max(0.0) as usize;
-        format!("{:.decimals$}", 10f64.powf(value.round()))
+        let power = value.round();
+        if !WRITTEN_POWERS.contains(&power) {
+            return format!("1e{power}");
+        }
+        let decimals = (-power).max(0.0) as usize;
+        format!("{:.decimals$}", 10f64.powf(power))
     }
 }
 
@@ -448,24 +457,29 @@ pub fn axes<'a>(
 /// # Errors
 /// Those of the drawing library.
 pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
-    let finite: Vec<Vec<(f64, f64)>> = chart
-        .series
-        .iter()
-        .map(|s| s.points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| (p[0], p[1])).collect())
-        .collect();
-    let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
-    let edges = chart.series.iter().flat_map(|series| &series.band).map(|p| p[1]).filter(|y| y.is_finite());
-    let y = Axis::covering(finite.iter().flatten().map(|p| p.1).chain(edges));
+    let placed = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
+        let places = points.iter().map(|p| if chart.logarithmic { p.map(f64::log10) } else { *p });
+        places.filter(|p| p.iter().all(|v| v.is_finite())).map(|[x, y]| (x, y)).collect()
+    };
+    let of_all = |of: fn(&Series) -> &Vec<[f64; 2]>| -> Vec<Vec<(f64, f64)>> {
+        chart.series.iter().map(|series| placed(of(series))).collect()
+    };
+    let (finite, bands) = (of_all(|series| &series.points), of_all(|series| &series.band));
+    let edges = || finite.iter().chain(&bands).flatten();
+    let [x, y] = if chart.logarithmic {
+        [Axis::decades(edges().map(|p| p.0)), Axis::decades(edges().map(|p| p.1))]
+    } else {
+        [Axis::covering(finite.iter().flatten().map(|p| p.0)), Axis::covering(edges().map(|p| p.1))]
+    };
     let range = [x.low, y.high, x.high, y.low];
     let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     let (across, down) = area.plotting_area().get_pixel_range();
     // the ranges end one beyond their last dot
     let frame = [across.start, down.start, across.end - 1, down.end - 1].map(f64::from);
-    for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
+    for (i, ((series, points), band)) in chart.series.iter().zip(&finite).zip(bands).enumerate() {
         let (colour, [dash, gap]) = pen(i, series);
-        if !series.band.is_empty() {
-            let outline: Vec<_> = series.band.iter().map(|p| (p[0], p[1])).collect();
-            area.draw_series(std::iter::once(Polygon::new(outline, colour.mix(0.25).filled())))?;
+        if !band.is_empty() {
+            area.draw_series(std::iter::once(Polygon::new(band, colour.mix(0.25).filled())))?;
         }
         let style = colour.stroke_width(2 * FINE_PIXELS);
         if gap == 0 {

@@ -18,8 +18,10 @@ pub fn decimals(step: f64) -> usize {
 
 /// A multiple of `step` in just the digits that it needs.
 pub fn label(value: f64, step: f64) -> String {
-    if !(1e-6..1e8).contains(&step) && value != 0.0 {
-        return format!("{value:.1e}").replace(".0e", "e");
+    // what is longer would reach into the name of the axis
+    if !(1e-6..1e6).contains(&step) && value != 0.0 {
+        let digits = decimals(value.abs() / 10f64.powf(value.abs().log10().floor())).min(3);
+        return format!("{value:.digits$e}");
     }
     let text = format!("{value:.*}", decimals(step));
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".into() } else { text }
@@ -41,6 +43,7 @@ mod tests {
         assert_eq!(round_step(0.9, 7.0), 0.2);
         assert_eq!(label(0.30000000000000004, 0.1), "0.3");
         assert_eq!(label(-0.0, 2.5), "0");
+        assert_eq!((label(1.25e7, 2.5e6), label(1e7, 5e6)), ("1.25e7".into(), "1e7".into()));
         assert_eq!((label(3e-19, 1e-19), label(0.0, 1e-19)), ("3e-19".into(), "0".into()));
         assert_eq!(label(2.5, 2.5), "2.5");
         assert_eq!(multiples(-10.0, 5.0, 5.0), [-10.0, -5.0, 0.0, 5.0]);

@@ -4,6 +4,7 @@ pub mod lanes;
 
 pub mod bisection;
 pub mod least_squares;
+pub mod monotone_cubic;
 pub mod sobol;
 
 pub mod transpose;

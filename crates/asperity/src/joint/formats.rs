@@ -1,17 +1,20 @@
 //! The files of a joint: CSV, JSON, charts, and the law as other programs read it.
 
 use super::press_joint::Joint;
-use super::summary::ExponentialFit;
+use super::summary::TABLE_TOLERANCE;
 use super::table::JointRow;
 use crate::crush::Phase;
 use crate::error::Error;
 use crate::results::numbers::{rounded, with_digits};
 use crate::results::output::{Sink, SinkExt, sorted_json, write_csv};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
-use asperity_formats::interface_law::InterfaceLaw;
+use asperity_formats::interface_law::{Exponential, InterfaceLaw};
+use asperity_roughness::joint::conductance_table;
 use asperity_roughness::read_as;
 use std::fmt::Write;
 
+/// Share of points without a height from which on the decks say what pressures are over.
+const SEEN_MISSING_SHARE: f64 = 1e-4;
 /// The tables end at this many times the largest load that was computed, along the last tangent.
 const CONTINUED: f64 = 2.0;
 
@@ -24,13 +27,9 @@ impl Joint {
         sink.write("joint.csv", |out| write_csv(out, &self.rows))?;
         let law = self.interface_law();
         let continued = InterfaceLaw { pressure: self.continued(&law.pressure), ..law.clone() };
-        let calculix = InterfaceLaw {
-            head: continued.head.clone() + &formula(self.summary.fit_pressure.as_ref(), &law),
-            ..continued.clone()
-        };
-        sink.text("calculix.inp", &calculix.calculix())?;
+        sink.text("calculix.inp", &continued.calculix())?;
         sink.text("abaqus.inp", &continued.abaqus())?;
-        sink.text("moose.csv", &law.moose())?;
+        sink.text("moose.csv", &self.with_rows_of_conductances(law).moose())?;
         for (name, chart) in self.charts() {
             sink.text(name, &crate::draw::chart::svg(&chart).map_err(Error::Unfinished)?)?;
         }
@@ -56,7 +55,9 @@ impl Joint {
         let touch = s.first_touch_gap_um * MICROMETRE;
         let conductances = |of: fn(&JointRow) -> Option<f64>| {
             let rows = self.rows.iter().take(1).chain(self.loaded());
-            rows.filter_map(|row| Some([row.pressure_MPa * MEGAPASCAL, of(row)?])).collect()
+            let loads: Vec<_> =
+                rows.filter_map(|row| Some([row.pressure_MPa * MEGAPASCAL, of(row)?])).collect();
+            conductance_table(&loads, TABLE_TOLERANCE)
         };
         InterfaceLaw {
             head: self.head(),
@@ -68,11 +69,29 @@ impl Joint {
             // the gap is that of first touch less the overclosure
             exponential: s.fit_pressure.as_ref().map(|fit| {
                 let length = fit.length_um * MICROMETRE;
-                [fit.pressure_MPa * MEGAPASCAL * (-touch / length).exp(), length]
+                Exponential {
+                    touching: fit.pressure_MPa * MEGAPASCAL * (-touch / length).exp(),
+                    length,
+                    range: fit.range_MPa.map(|p| p * MEGAPASCAL),
+                    residual: fit.residual,
+                }
             }),
             heat: conductances(|row| row.conductance_W_per_m2K),
             current: conductances(|row| row.electrical_conductance_S_per_m2),
         }
+    }
+
+    /// The law with a row of pressure wherever a conductance has one, for a program that interpolates both over
+    /// the approach.
+    fn with_rows_of_conductances(&self, law: InterfaceLaw) -> InterfaceLaw {
+        let Some(curve) = &self.law else { return law };
+        let [low, high] = curve.range();
+        let more = law.heat.iter().chain(&law.current).map(|row| row[0]).filter(|p| low < *p && *p < high);
+        let mut pressure: Vec<_> =
+            law.pressure.iter().copied().chain(more.map(|p| [curve.approach(p), p])).collect();
+        pressure.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        pressure.dedup_by(|next, last| next[0] <= last[0] || next[1] <= last[1]);
+        InterfaceLaw { pressure, ..law }
     }
 
     /// The rows of pressure with one more beyond the last load, along the tangent.
@@ -92,6 +111,15 @@ impl Joint {
         let s = &self.summary;
         let metal =
             s.limit_MPa.map_or("elastic".into(), |limit| format!("at most {limit:.0} MPa on a pixel"));
+        let whole = s.pixels[0] as f64 * s.pixel_size_um[0] * s.pixels[1] as f64 * s.pixel_size_um[1];
+        let measured = s.nominal_area_um2 / whole;
+        let holes = match measured < 1.0 - SEEN_MISSING_SHARE {
+            true => format!(
+                "Points without a height carry nothing: pressures and conductances are over the {:.2} % of the area that has one. ",
+                1e2 * measured
+            ),
+            false => String::new(),
+        };
         let errors = self.loaded().filter_map(|row| row.error);
         let (low, high) = errors.fold((f64::INFINITY, 0.0_f64), |(l, h), e| (l.min(e), h.max(e)));
         let error = match low <= high {
@@ -103,8 +131,8 @@ impl Joint {
             false => String::new(),
         };
         format!(
-            "Joint of the surface {} ({} x {} points of {:.6} x {:.6} um) on a smooth rigid plane, by asperity {}. Metal: E* = {:.1} MPa, \
-             {metal}. Units: N, mm, MPa, mW, K, A, V. Overclosure 0 is first touch, where the mean planes are {:.6} um apart, which the mesh \
+            "Joint of the surface {} ({} x {} points of {:.6} x {:.6} um) on a smooth rigid plane, by asperity {}. {holes}Metal: \
+             E* = {:.1} MPa, {metal}. Units: N, mm, MPa, mW, K, A, V. Overclosure 0 is first touch, where the mean planes are {:.6} um apart, which the mesh \
              leaves out. Straight lines between rows are off the law by at most 0.5 %. {error}The law was computed to {:.6} MPa; the last row of \
              pressure continues it along its tangent to twice that, and no row of conductance goes beyond.",
             s.surfaces.join(" and "),
@@ -121,7 +149,23 @@ impl Joint {
 
     /// The result for a person.
     pub fn text(&self) -> String {
-        let mut text = read_as(&self.summary.understood);
+        let s = &self.summary;
+        let mut text = read_as(&s.understood);
+        let taken = match s.outliers {
+            0 => String::new(),
+            n => format!(", {n} taken away by surface.outliers"),
+        };
+        let _ = writeln!(
+            text,
+            "{}: {} x {} points of {:.4} x {:.4} um, {} missing{taken}; Sq {} um",
+            s.surfaces.join(", "),
+            s.pixels[0],
+            s.pixels[1],
+            s.pixel_size_um[0],
+            s.pixel_size_um[1],
+            s.missing,
+            with_digits(s.sq_um, 4),
+        );
         text += "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um  h W/(m² K)  error %\n";
         let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
         for row in &self.rows {
@@ -139,29 +183,5 @@ impl Joint {
             );
         }
         text + &self.summary.verdict + "\n"
-    }
-}
-
-/// The formula of `JOINT_HEAT` for the head: the range in which it was fitted, and the load that the first
-/// increment of a model with it has to carry; nothing without heat.
-///
-/// Tried in CalculiX 2.20: two blocks that touch, pressed by less than the formula gives at overclosure 0,
-/// fly apart, and the step ends in too many cutbacks; from one and a half times that on it converges.
-fn formula(fit: Option<&ExponentialFit>, law: &InterfaceLaw) -> String {
-    match (fit, law.exponential) {
-        (Some(fit), Some([touching, _])) if !law.heat.is_empty() => format!(
-            " The closure of JOINT_HEAT is a formula, fitted from {} to {} MPa, which it meets to {} % of the \
-             pressure; beyond that range its closure is not that of the joint. The first increment has to carry \
-             more than {} MPa, the pressure of the formula at overclosure 0: faces that are pressed by less part, \
-             and the step fails.",
-            rounded(fit.range_MPa[0]),
-            rounded(fit.range_MPa[1]),
-            rounded(1e2 * fit.residual),
-            rounded(touching / MEGAPASCAL)
-        ),
-        (None, _) if !law.heat.is_empty() => String::from(
-            " No exponential is near enough to the law, so that the closure of JOINT_HEAT is a line to its last row.",
-        ),
-        _ => String::new(),
     }
 }

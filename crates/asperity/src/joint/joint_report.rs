@@ -7,8 +7,11 @@ use crate::draw::chart::{Chart, Dash, Series};
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
 use crate::page::{self, Numbers, Report};
+use asperity_numerics::monotone_cubic::MonotoneCubic;
 use maud::{Markup, html};
 
+/// Pieces of a line that is drawn of the way back.
+const DRAWN_PIECES: usize = 128;
 /// Rows of the page: so many of the loads, evenly.
 const SHOWN_ROWS: usize = 12;
 
@@ -71,7 +74,7 @@ impl Joint {
             "conductance, W/(m² K)",
             "error of the last two",
         ];
-        page::table("Loads from first touch to the largest; all are in joint.csv.", &head, &rows)
+        page::table("Some of the loads, from first touch to the largest; all are in joint.csv.", &head, &rows)
     }
 
     fn fits(&self, numbers: &Numbers) -> Markup {
@@ -103,9 +106,12 @@ impl Joint {
     pub(super) fn charts(&self) -> Vec<(&'static str, Chart)> {
         let unloaded = self.rows.iter().filter(|row| row.phase == Phase::Unload);
         let law = |row: &JointRow| [row.approach_um, row.pressure_MPa];
-        let flows = self.summary.limit_MPa.is_some();
-        let back =
-            Series { dash: Some(Dash::Dashed), ..Series::line("back, elastic", unloaded.map(law).collect()) };
+        // what never reaches the limit goes back as it came
+        let flows = self.loaded().any(|row| row.limited_share > 0.0);
+        let back = Series {
+            dash: Some(Dash::Dashed),
+            ..Series::line("back, elastic", smooth(unloaded.map(law).collect()))
+        };
         // the law is smooth between its loads
         let loading = self.summary.law.iter().map(|row| [row.approach_um, row.pressure_MPa]);
         let mut curves = vec![Series::line("loading", loading.collect())];
@@ -119,11 +125,13 @@ impl Joint {
         let stiffness = self.banded("elastic stiffness", |row| row.elastic_stiffness_MPa_per_um);
         let stiffness = Chart::new("nominal pressure (MPa)", "elastic stiffness (MPa/µm)", [stiffness])
             .titled("Elastic stiffness of the joint as it stands, with the band of its error");
-        let mut charts = vec![("pressure.svg", pressure), ("stiffness.svg", stiffness)];
+        let logarithmic = |chart: Chart| Chart { logarithmic: true, ..chart };
+        let mut charts = vec![("pressure.svg", pressure), ("stiffness.svg", logarithmic(stiffness))];
         if self.summary.conductivity_W_per_mK.is_some() {
             let heat = self.banded("thermal conductance", |row| row.conductance_W_per_m2K);
             let chart = Chart::new("nominal pressure (MPa)", "thermal conductance (W/(m² K))", [heat]);
-            charts.push(("conductance.svg", chart.titled("Thermal conductance, with the band of its error")));
+            let chart = chart.titled("Thermal conductance, with the band of its error");
+            charts.push(("conductance.svg", logarithmic(chart)));
         }
         charts
     }
@@ -138,4 +146,19 @@ impl Joint {
         let band = edge(1.0).chain(lower.into_iter().rev()).collect();
         Series { band, ..Series::line(name, points().map(|(p, y, _)| [p, y]).collect()) }
     }
+}
+
+/// Rows (approach, pressure) of a way back, the last without pressure, as a smooth line: a cubic in the
+/// logarithm of the pressure, straight below the smallest.
+fn smooth(mut rows: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    rows.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    let carried: Vec<_> = rows.iter().filter(|row| row[1] > 0.0).map(|[x, p]| [p.ln(), *x]).collect();
+    let Some(curve) = MonotoneCubic::through(&carried) else { return rows };
+    let [low, high] = [carried[0][0], carried[carried.len() - 1][0]];
+    let between = (0..=DRAWN_PIECES).map(|i| {
+        let t = low + (high - low) * i as f64 / DRAWN_PIECES as f64;
+        [curve.value_and_slope(t)[0], t.exp()]
+    });
+    let end = rows.iter().take_while(|row| row[1] <= 0.0).copied();
+    end.chain(between).collect()
 }

@@ -86,6 +86,10 @@ row! {
         pixels: [usize; 2] = [surface.map.columns(), surface.map.rows()],
         /// Distance of points along x and y.
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
+        /// Points of the first map or tile without a height.
+        missing: usize = surface.missing,
+        /// Points of it that `surface.outliers` took away.
+        outliers: usize = surface.outliers,
         /// Root mean square height Sq of the first map or tile.
         sq_um: f64 = surface.parameters.sq / MICROMETRE,
         /// Area over which the pressure is nominal, of one map or tile, µm².
@@ -202,6 +206,7 @@ impl Summary {
 
     fn verdict_in_words(&self) -> String {
         let Some(peak) = self.peak() else { return String::new() };
+        let elastic = self.limit_MPa.is_some() && self.rows.iter().all(|row| row.limited_share == 0.0);
         let number = |value: f64| with_digits(value, 4);
         let mut text = format!(
             "{}: from first touch to {} MPa the joint closes by {} um, to a mean gap of {} um",
@@ -219,6 +224,9 @@ impl Summary {
         }
         if let Some(h) = peak.conductance_W_per_m2K {
             text += &format!(", its conductance {} W/(m² K)", number(h));
+        }
+        if elastic {
+            text += "; no pixel reaches the limit of pressure, so that the way back is the way in";
         }
         if let Some(fit) = &self.fit_stiffness {
             text += &format!(

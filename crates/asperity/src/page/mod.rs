@@ -141,6 +141,7 @@ pub fn chart(chart: &Chart, seen: &str, caption: &str) -> Result<Markup, Error> 
     });
     let data = serde_json::json!({
         "x": chart.x_label, "y": chart.y_label, "frame": window.frame, "range": window.range,
+        "logarithmic": chart.logarithmic,
         "lines": lines.collect::<Vec<_>>(),
     });
     // no text of it may end the element that holds it

@@ -46,25 +46,33 @@ fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
     if share <= SEEN_MISSING_SHARE {
         return None;
     }
+    let taken = match surface.outliers {
+        0 => String::new(),
+        n => format!(" ({n} of them surface.outliers took away)"),
+    };
     let percent = 100.0 * share;
     if map.missing() == 0 {
         return Some(format!(
-            "{percent:.1} % of the points have no height and were filled from their rims: contact, gap and flow there are a guess"
+            "{percent:.1} % of the points have no height{taken} and were filled from their rims: contact, gap and flow there are a guess"
         ));
     }
     let cells = surface.extent.cells as f64 / (map.cell_columns() * map.cell_rows()) as f64;
     let pixels = 1.0 - map.missing() as f64 / nodes;
-    let flow = if scene.closure.closures().iter().any(|closure| closure.is_half_space()) {
-        "; percolation and leak take them for closed, which they may not be"
-    } else {
-        ""
+    let closures = scene.closure.closures();
+    let (fields, islands): (Vec<Closure>, Vec<Closure>) =
+        closures.iter().partition(|closure| closure.is_half_space());
+    let rest = [
+        (!islands.is_empty()).then(|| format!("{:.1} % of the cells for closures of islands", 100.0 * cells)),
+        (!fields.is_empty()).then(|| format!("{:.1} % of the pixels for the half-space", 100.0 * pixels)),
+    ];
+    let rest = rest.into_iter().flatten().collect::<Vec<_>>().join(" and ");
+    let flow = match fields[..] {
+        [] => "",
+        _ => "; percolation and leak take them for closed, which they may not be",
     };
     Some(format!(
-        "{percent:.1} % of the points have no height and carry nothing: areas and the load are those of the rest, which is {:.1} % of the cells \
-         for closures of islands and {:.1} % of the pixels for the half-space (force = nominal pressure x nominal_area_um2 of the \
-         row){flow}; surface.missing = \"fill\" fills them",
-        100.0 * cells,
-        100.0 * pixels,
+        "{percent:.1} % of the points have no height{taken} and carry nothing: areas and the load are those of the rest, which is {rest} \
+         (force = nominal pressure x nominal_area_um2){flow}; surface.missing = \"fill\" fills them"
     ))
 }
 
@@ -115,9 +123,15 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
     let [above, below] = [surface.extent.high - parameters.mean, parameters.mean - surface.extent.low];
     let ends = [("highest", above), ("lowest", below)].map(|(end, off)| (end, off / parameters.sq));
     let spike = ends.iter().find(|(_, ratio)| *ratio > SPIKE_DEVIATIONS).map(|(end, ratio)| {
+        let way_out = match scene.surface.outliers {
+            None => "remove it (surface.outliers = 8, missing_value), or smooth with s_filter",
+            Some(_) => {
+                "surface.outliers left it, as its neighbours are nearly as far off: name it by missing_value, or smooth with s_filter"
+            }
+        };
         format!(
             "the {end} point is {ratio:.0} standard deviations from the mean: if it is dust, a missing point or an error of measurement, \
-             first touch, gap and leak are its own; remove it (surface.outliers = 8, missing_value), or smooth with s_filter"
+             first touch, gap and leak are its own; {way_out}"
         )
     });
     let [flat, steep] = USUAL_SLOPES_DEG;

@@ -1,5 +1,8 @@
 //! Conductance of a joint for heat or electric current.
 
+use super::law::{fine_pressures, thinned};
+use asperity_numerics::monotone_cubic::MonotoneCubic;
+
 /// The two bodies of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bodies {
@@ -29,4 +32,25 @@ impl Bodies {
 /// over the mean of g.
 pub fn of_medium(conductivity: f64, mean_gap: f64) -> f64 {
     conductivity / mean_gap
+}
+
+/// Pressure (Pa) and conductance of `loads`, both rising, the first at no pressure: so many points that
+/// straight lines between them are off a smooth curve by the share `tolerance` at most. The curve is a cubic
+/// in the logarithms; below the first load that carries something it is a straight line, as the conductance of
+/// spots is nearly proportional to the pressure.
+pub fn conductance_table(loads: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
+    let carried: Vec<[f64; 2]> =
+        loads.iter().filter(|[p, h]| *p > 0.0 && *h > 0.0).map(|load| load.map(f64::ln)).collect();
+    let (Some(curve), Some(first)) = (MonotoneCubic::through(&carried), loads.first()) else {
+        return loads.to_vec();
+    };
+    let [p, h] = carried[0].map(f64::exp);
+    let value = |pressure: f64| {
+        if pressure < p {
+            return first[1] + (h - first[1]) * (pressure - first[0]) / (p - first[0]);
+        }
+        curve.value_and_slope(pressure.ln())[0].exp()
+    };
+    let fine: Vec<[f64; 2]> = fine_pressures(&curve).into_iter().map(|p| [p, value(p)]).collect();
+    thinned(&fine, tolerance, 0.0)
 }

@@ -1,11 +1,10 @@
 //! Pressure over approach as one smooth, rising curve.
 
 use super::path::JointPoint;
+use asperity_numerics::monotone_cubic::MonotoneCubic;
 
 /// Points of the curve between two loads, where it is thinned or searched.
 const FINE: usize = 64;
-/// Slopes of a cubic so many times the chord's keep it rising (Fritsch and Carlson 1980).
-const STEEPEST: f64 = 3.0;
 /// Nodes and weights of Gauss's rule of four points on 0..1.
 const GAUSS: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
@@ -19,8 +18,8 @@ const GAUSS: [[f64; 2]; 4] = [
 /// with its slope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
-    /// ln p (Pa), δ (m), dδ/d ln p (m), rising.
-    nodes: Vec<[f64; 3]>,
+    /// ln p (Pa), δ (m).
+    curve: MonotoneCubic,
 }
 
 impl Law {
@@ -34,26 +33,23 @@ impl Law {
                 nodes.push([point.pressure.ln(), point.approach, point.pressure / stiffness]);
             }
         }
-        if nodes.len() < 2 {
-            return None;
-        }
-        for i in 1..nodes.len() {
-            let chord = (nodes[i][1] - nodes[i - 1][1]) / (nodes[i][0] - nodes[i - 1][0]);
-            for k in [i - 1, i] {
-                nodes[k][2] = nodes[k][2].min(STEEPEST * chord);
-            }
-        }
-        Some(Law { nodes })
+        Some(Law { curve: MonotoneCubic::with_slopes(nodes)? })
+    }
+
+    /// The first and the last of its nodes: ln p, δ, dδ/d ln p.
+    fn ends(&self) -> [[f64; 3]; 2] {
+        let nodes = self.curve.nodes();
+        [nodes[0], nodes[nodes.len() - 1]]
     }
 
     /// The smallest and the largest pressure that were computed, in Pa.
     pub fn range(&self) -> [f64; 2] {
-        [0, self.nodes.len() - 1].map(|i| self.nodes[i][0].exp())
+        self.ends().map(|node| node[0].exp())
     }
 
     /// The approach at `pressure` (Pa), in m; beyond the largest load along its tangent.
     pub fn approach(&self, pressure: f64) -> f64 {
-        let (first, last) = (self.nodes[0], self.nodes[self.nodes.len() - 1]);
+        let [first, last] = self.ends();
         let [low, high] = self.range();
         if pressure <= low {
             return if pressure > 0.0 { first[1] * (pressure / low).powf(self.first_power()) } else { 0.0 };
@@ -61,42 +57,34 @@ impl Law {
         if pressure >= high {
             return last[1] + last[2] * (pressure / high - 1.0);
         }
-        let t = pressure.ln();
-        let i = self.nodes.partition_point(|node| node[0] <= t).clamp(1, self.nodes.len() - 1);
-        cubic(self.nodes[i - 1], self.nodes[i], t)[0]
+        self.curve.value_and_slope(pressure.ln())[0]
     }
 
     /// d ln δ/d ln p below the first load.
     fn first_power(&self) -> f64 {
-        self.nodes[0][2] / self.nodes[0][1]
+        let [[_, approach, slope], _] = self.ends();
+        slope / approach
     }
 
     /// ∫ p dδ to the largest load, in J/m²: the work done on the joint.
     pub fn work(&self) -> f64 {
         let [low, _] = self.range();
         let n = self.first_power();
-        let before = low * self.nodes[0][1] * n / (n + 1.0);
+        let before = low * self.ends()[0][1] * n / (n + 1.0);
         let piece = |pair: &[[f64; 3]]| {
             let width = pair[1][0] - pair[0][0];
             let at = |[x, weight]: [f64; 2]| {
                 let t = pair[0][0] + x * width;
-                weight * width * t.exp() * cubic(pair[0], pair[1], t)[1]
+                weight * width * t.exp() * self.curve.value_and_slope(t)[1]
             };
             GAUSS.map(at).iter().sum::<f64>()
         };
-        before + self.nodes.windows(2).map(piece).sum::<f64>()
+        before + self.curve.nodes().windows(2).map(piece).sum::<f64>()
     }
 
     /// Pressures close to each other from nothing to the largest load, in Pa.
     pub(super) fn fine_pressures(&self) -> Vec<f64> {
-        let [low, _] = self.range();
-        let first = (0..FINE).map(|k| low * k as f64 / FINE as f64);
-        let between = |pair: &[[f64; 3]]| {
-            let [from, to] = [pair[0][0], pair[1][0]];
-            (0..FINE).map(move |k| (from + (to - from) * k as f64 / FINE as f64).exp())
-        };
-        let last = self.nodes[self.nodes.len() - 1][0].exp();
-        first.chain(self.nodes.windows(2).flat_map(between)).chain([last]).collect()
+        fine_pressures(&self.curve)
     }
 
     /// Approach (m) and pressure (Pa) from first touch to the largest load, both rising: so few points that
@@ -105,32 +93,40 @@ impl Law {
     pub fn table(&self, tolerance: f64) -> Vec<[f64; 2]> {
         let curve: Vec<[f64; 2]> = self.fine_pressures().into_iter().map(|p| [self.approach(p), p]).collect();
         let [low, _] = self.range();
-        let fits = |from: usize, to: usize| {
-            let ([a, p], [b, q]) = (curve[from], curve[to]);
-            let line = |x: f64| p + (q - p) * (x - a) / (b - a);
-            curve[from + 1..to].iter().all(|[x, y]| (line(*x) - y).abs() <= tolerance * y.max(low))
-        };
-        let (mut table, mut from) = (vec![curve[0]], 0);
-        while from + 1 < curve.len() {
-            // the pieces of a curve that bends one way grow until they do not fit
-            let mut to = from + 1;
-            while to + 1 < curve.len() && fits(from, to + 1) {
-                to += 1;
-            }
-            table.push(curve[to]);
-            from = to;
-        }
+        let mut table = thinned(&curve, tolerance, low);
         table.dedup_by(|next, last| next[0] <= last[0] || next[1] <= last[1]);
         table
     }
 }
 
-/// Value and slope of the cubic between two nodes.
-fn cubic(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 2] {
-    let width = b[0] - a[0];
-    let x = (t - a[0]) / width;
-    let (m, n) = (a[2] * width, b[2] * width);
-    let rise = b[1] - a[1];
-    let (c, d) = (3.0 * rise - 2.0 * m - n, m + n - 2.0 * rise);
-    [a[1] + x * (m + x * (c + x * d)), (m + x * (2.0 * c + 3.0 * x * d)) / width]
+/// Pressures close to each other from nothing to the last node of a `curve` over ln p, in Pa.
+pub(super) fn fine_pressures(curve: &MonotoneCubic) -> Vec<f64> {
+    let nodes = curve.nodes();
+    let first = (0..FINE).map(|k| nodes[0][0].exp() * k as f64 / FINE as f64);
+    let between = |pair: &[[f64; 3]]| {
+        let [from, to] = [pair[0][0], pair[1][0]];
+        (0..FINE).map(move |k| (from + (to - from) * k as f64 / FINE as f64).exp())
+    };
+    first.chain(nodes.windows(2).flat_map(between)).chain([nodes[nodes.len() - 1][0].exp()]).collect()
+}
+
+/// So few of the points (x, y) of `curve`, rising in x, that straight lines between them are off the others by
+/// the share `tolerance` of y at most, of `least` where y is less.
+pub(super) fn thinned(curve: &[[f64; 2]], tolerance: f64, least: f64) -> Vec<[f64; 2]> {
+    let fits = |from: usize, to: usize| {
+        let ([a, p], [b, q]) = (curve[from], curve[to]);
+        let line = |x: f64| p + (q - p) * (x - a) / (b - a);
+        curve[from + 1..to].iter().all(|[x, y]| (line(*x) - y).abs() <= tolerance * y.max(least))
+    };
+    let (mut table, mut from) = (vec![curve[0]], 0);
+    while from + 1 < curve.len() {
+        // the pieces of a curve that bends one way grow until they do not fit
+        let mut to = from + 1;
+        while to + 1 < curve.len() && fits(from, to + 1) {
+            to += 1;
+        }
+        table.push(curve[to]);
+        from = to;
+    }
+    table
 }

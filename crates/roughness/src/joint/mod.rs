@@ -20,7 +20,7 @@ mod fit;
 mod transport;
 
 pub use bounds::{Bounds, bounds};
-pub use conductance::{Bodies, of_medium};
+pub use conductance::{Bodies, conductance_table, of_medium};
 pub use fit::{Exponential, Fit, Fits, Power};
 pub use law::Law;
 pub use loads::{FEWEST_LOADS, USUAL_LOADS, largest_pressure, loads};
