@@ -221,7 +221,8 @@ def test_a_sweep_is_fitted_or_says_why() -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 def test_ctrl_c_ends_a_run() -> None:
-    scene = asperity.Scene(**SCENE).set("accuracy", "reference").set("loading.depth", "15 um")
+    # a run that is long enough on a machine that has much else to do
+    scene = asperity.Scene(**SCENE).set("numerics.elements_in_contact", 150).set("loading.depth", "15 um")
     begun, shares = threading.Event(), [0.0]
 
     def follow(share: float, _: str) -> None:

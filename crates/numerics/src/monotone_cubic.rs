@@ -13,8 +13,8 @@ pub struct MonotoneCubic {
 }
 
 impl MonotoneCubic {
-    /// Through nodes (x, y, dy/dx), x rising and y not falling, their slopes lowered where the curve would not
-    /// rise; None of fewer than two.
+    /// Through nodes (x, y, dy/dx), x rising and y not falling, their slopes lowered where the curve would
+    /// not rise; None of fewer than two.
     ///
     /// ```
     /// use asperity_numerics::monotone_cubic::MonotoneCubic;
@@ -36,7 +36,7 @@ impl MonotoneCubic {
 
     /// Through points (x, y), with the slopes of the parabolas through three neighbours, at the ends of the
     /// first and the last three; else as [`MonotoneCubic::with_slopes`].
-    pub fn through(points: &[[f64; 2]]) -> Option<MonotoneCubic> {
+    pub fn through_points(points: &[[f64; 2]]) -> Option<MonotoneCubic> {
         let node = |i: usize| {
             let first = i.saturating_sub(1).min(points.len().saturating_sub(3));
             let [x, y] = points[i];
@@ -91,20 +91,20 @@ mod tests {
     #[test]
     fn a_parabola_is_met_and_a_step_is_not_overshot() {
         let parabola: Vec<[f64; 2]> = [1.0, 1.5, 2.5, 3.0, 4.5].map(|x: f64| [x, x * x]).to_vec();
-        let curve = MonotoneCubic::through(&parabola).unwrap();
+        let curve = MonotoneCubic::through_points(&parabola).unwrap();
         for i in 0..=70 {
             let x = 1.0 + 0.05 * f64::from(i);
             let [y, slope] = curve.value_and_slope(x);
             assert!((y - x * x).abs() < 1e-12 && (slope - 2.0 * x).abs() < 1e-12, "{x}: {y} {slope}");
         }
         let step = [[0.0, 0.0], [1.0, 0.01], [2.0, 0.02], [3.0, 5.0], [4.0, 5.01], [5.0, 5.02]];
-        let curve = MonotoneCubic::through(&step).unwrap();
+        let curve = MonotoneCubic::through_points(&step).unwrap();
         let values: Vec<f64> = (0..=500).map(|i| curve.value_and_slope(0.01 * f64::from(i))[0]).collect();
         assert!(values.windows(2).all(|two| two[1] >= two[0]));
         assert!(step.iter().all(|[x, y]| (curve.value_and_slope(*x)[0] - y).abs() < 1e-12));
-        assert_eq!(MonotoneCubic::through(&step[..1]), None);
+        assert_eq!(MonotoneCubic::through_points(&step[..1]), None);
         assert_eq!(
-            MonotoneCubic::through(&[[0.0, 1.0], [2.0, 5.0]]).unwrap().value_and_slope(1.0),
+            MonotoneCubic::through_points(&[[0.0, 1.0], [2.0, 5.0]]).unwrap().value_and_slope(1.0),
             [3.0, 2.0]
         );
     }

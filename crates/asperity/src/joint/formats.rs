@@ -81,8 +81,8 @@ impl Joint {
         }
     }
 
-    /// The law with a row of pressure wherever a conductance has one, for a program that interpolates both over
-    /// the approach.
+    /// The law with a row of pressure wherever a conductance has one, for a program that interpolates both
+    /// over the approach.
     fn with_rows_of_conductances(&self, law: InterfaceLaw) -> InterfaceLaw {
         let Some(curve) = &self.law else { return law };
         let [low, high] = curve.range();

@@ -10,7 +10,7 @@ use crate::page::{self, Numbers, Report};
 use asperity_numerics::monotone_cubic::MonotoneCubic;
 use maud::{Markup, html};
 
-/// Pieces of a line that is drawn of the way back.
+/// Pieces of a line that is drawn of the unloading.
 const DRAWN_PIECES: usize = 128;
 /// Rows of the page: so many of the loads, evenly.
 const SHOWN_ROWS: usize = 12;
@@ -148,12 +148,12 @@ impl Joint {
     }
 }
 
-/// Rows (approach, pressure) of a way back, the last without pressure, as a smooth line: a cubic in the
+/// Rows (approach, pressure) of an unloading, the last without pressure, as a smooth line: a cubic in the
 /// logarithm of the pressure, straight below the smallest.
 fn smooth(mut rows: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     rows.sort_by(|a, b| a[1].total_cmp(&b[1]));
     let carried: Vec<_> = rows.iter().filter(|row| row[1] > 0.0).map(|[x, p]| [p.ln(), *x]).collect();
-    let Some(curve) = MonotoneCubic::through(&carried) else { return rows };
+    let Some(curve) = MonotoneCubic::through_points(&carried) else { return rows };
     let [low, high] = [carried[0][0], carried[carried.len() - 1][0]];
     let between = (0..=DRAWN_PIECES).map(|i| {
         let t = low + (high - low) * i as f64 / DRAWN_PIECES as f64;

@@ -226,7 +226,7 @@ impl Summary {
             text += &format!(", its conductance {} W/(m² K)", number(h));
         }
         if elastic {
-            text += "; no pixel reaches the limit of pressure, so that the way back is the way in";
+            text += "; no pixel reaches the limit of pressure, so that unloading follows the loading";
         }
         if let Some(fit) = &self.fit_stiffness {
             text += &format!(

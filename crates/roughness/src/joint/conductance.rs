@@ -36,12 +36,12 @@ pub fn of_medium(conductivity: f64, mean_gap: f64) -> f64 {
 
 /// Pressure (Pa) and conductance of `loads`, both rising, the first at no pressure: so many points that
 /// straight lines between them are off a smooth curve by the share `tolerance` at most. The curve is a cubic
-/// in the logarithms; below the first load that carries something it is a straight line, as the conductance of
-/// spots is nearly proportional to the pressure.
+/// in the logarithms; below the first load that carries something it is a straight line, as the conductance
+/// of spots is nearly proportional to the pressure.
 pub fn conductance_table(loads: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let carried: Vec<[f64; 2]> =
         loads.iter().filter(|[p, h]| *p > 0.0 && *h > 0.0).map(|load| load.map(f64::ln)).collect();
-    let (Some(curve), Some(first)) = (MonotoneCubic::through(&carried), loads.first()) else {
+    let (Some(curve), Some(first)) = (MonotoneCubic::through_points(&carried), loads.first()) else {
         return loads.to_vec();
     };
     let [p, h] = carried[0].map(f64::exp);

@@ -110,8 +110,8 @@ pub(super) fn fine_pressures(curve: &MonotoneCubic) -> Vec<f64> {
     first.chain(nodes.windows(2).flat_map(between)).chain([nodes[nodes.len() - 1][0].exp()]).collect()
 }
 
-/// So few of the points (x, y) of `curve`, rising in x, that straight lines between them are off the others by
-/// the share `tolerance` of y at most, of `least` where y is less.
+/// So few of the points (x, y) of `curve`, rising in x, that straight lines between them are off the others
+/// by the share `tolerance` of y at most, of `least` where y is less.
 pub(super) fn thinned(curve: &[[f64; 2]], tolerance: f64, least: f64) -> Vec<[f64; 2]> {
     let fits = |from: usize, to: usize| {
         let ([a, p], [b, q]) = (curve[from], curve[to]);

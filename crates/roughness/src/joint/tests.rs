@@ -235,7 +235,7 @@ fn a_formula_goes_over_the_widest_range_that_it_meets() {
 }
 
 /// A conductance that grows as p², at three loads a decade: a straight line between loads is off by up to
-/// 40 %, between the rows of the table by the 0.5 % that was asked, and the medium stands below the first load.
+/// 40 %, between the rows of the table by the 0.5 % that was asked; below the first load is the medium.
 #[test]
 fn a_table_of_conductances_is_a_smooth_curve_through_its_loads() {
     let loads: Vec<[f64; 2]> = std::iter::once([0.0, 50.0])
