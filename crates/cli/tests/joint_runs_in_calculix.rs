@@ -1,7 +1,8 @@
 //! Claim: what `asperity joint` writes for CalculiX does there what the table says: two blocks that are
 //! pressed together close by the approach of the table, and let through the heat of its conductance.
 //!
-//! Source: the rows of joint.csv. Tolerance: 1 %, of which straight lines between rows take 0.5 %. Needs ccx
+//! Source: the rows of joint.csv. Tolerance: 1 %, of which straight lines between rows take 0.5 %; of the
+//! conductance what the file states of its rows where that is more. Needs ccx
 //! (Debian: calculix-ccx; tried with 2.20). Without it the test says so and passes, unless CI is `true`:
 //! a machine that judges changes has it.
 
@@ -121,8 +122,8 @@ fn two_blocks_close_and_conduct_as_the_table_says() {
         .collect();
     // five loads over the upper two decades of the law
     let chosen: Vec<[f64; 3]> = (1..=5).map(|k| loading[loading.len() - 1 - 4 * (5 - k)]).collect();
-    let steps = |kind: &str, first: f64, print: &str| {
-        chosen.iter().fold(String::new(), |mut text, [p, ..]| {
+    let steps = |loads: &[[f64; 3]], kind: &str, first: f64, print: &str| {
+        loads.iter().fold(String::new(), |mut text, [p, ..]| {
             let _ = write!(
                 text,
                 "*STEP, INC=500\n{kind}\n{first}, 1.\n*DLOAD\n2, P2, {p:.9e}\n{print}\n*END STEP\n"
@@ -136,35 +137,47 @@ fn two_blocks_close_and_conduct_as_the_table_says() {
     };
     let mechanics = blocks(RIGID)
         + &pair("JOINT", "NODE TO SURFACE")
-        + &steps("*STATIC", 1.0, "*NODE PRINT, NSET=FACE\nU");
+        + &steps(&chosen, "*STATIC", 1.0, "*NODE PRINT, NSET=FACE\nU");
     let closure = run(&place, "mechanics", &mechanics, "displacements", 3);
     // as the head of the file says: the first increment a hundredth of the load, of steel blocks
     let steel = blocks(210e3)
         + &pair("JOINT", "NODE TO SURFACE")
-        + &steps("*STATIC", 0.01, "*NODE PRINT, NSET=FACE\nU");
+        + &steps(&chosen, "*STATIC", 0.01, "*NODE PRINT, NSET=FACE\nU");
     let steel = run(&place, "steel", &steel, "displacements", 3);
-    let heat = |interaction: &str| {
-        blocks(RIGID)
+    // of so few rows the file states an error of its own
+    let deck = place.text("out/calculix.inp").replace("\n** ", " ");
+    let stated =
+        deck.split("these are off the law by at most ").nth(1).and_then(|rest| rest.split(' ').next());
+    let stated = 0.01 * stated.unwrap().parse::<f64>().unwrap() + 5e-4;
+    // twenty rows over three decades of a law that its pixels know to 5 % at best
+    assert!(stated < 0.03, "{stated}");
+    // more rows than CalculiX keeps would spoil the first ones: the line at every load, the exponential where
+    // each carries more than its pressure at overclosure 0
+    let heat = |interaction: &str, loads: &[[f64; 3]]| {
+        let deck = blocks(RIGID)
             + &pair(interaction, "SURFACE TO SURFACE")
             + "BASE, 11, 11, 0.\nTOP, 11, 11, 10.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 0.\n"
             + &steps(
+                loads,
                 "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE",
                 1.0,
                 "*NODE PRINT, NSET=BASE, TOTALS=ONLY\nRFL",
-            )
+            );
+        let flux = run(&place, interaction, &deck, "total heat generation", 0);
+        for (k, [pressure, _, conductance]) in (1..).zip(loads) {
+            // mW through 1 mm² at 10 K
+            let h = -1e3 * flux[&k] / 10.0;
+            let off = (h / conductance - 1.0).abs();
+            assert!(off < stated.max(0.01), "{interaction}, {pressure} MPa: {h}, {conductance} W/(m² K)");
+        }
     };
-    let fluxes = ["JOINT_HEAT", "JOINT_HEAT_EXPONENTIAL"]
-        .map(|interaction| run(&place, interaction, &heat(interaction), "total heat generation", 0));
-    for (k, [pressure, approach, conductance]) in (1..).zip(&chosen) {
+    heat("JOINT_HEAT", &loading);
+    heat("JOINT_HEAT_EXPONENTIAL", &chosen);
+    for (k, [pressure, approach, _]) in (1..).zip(&chosen) {
         let closed = -1e3 * closure[&k];
         assert!((closed / approach - 1.0).abs() < 0.01, "{pressure} MPa: {closed} um, {approach} um");
         // the lower block has given way by p/E of its 1 mm
         let closed = -1e3 * (steel[&k] + pressure / 210e3);
         assert!((closed / approach - 1.0).abs() < 0.01, "{pressure} MPa: {closed} um, {approach} um");
-        for flux in &fluxes {
-            // mW through 1 mm² at 10 K
-            let h = -1e3 * flux[&k] / 10.0;
-            assert!((h / conductance - 1.0).abs() < 0.01, "{pressure} MPa: {h}, {conductance} W/(m² K)");
-        }
     }
 }

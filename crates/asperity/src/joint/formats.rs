@@ -8,11 +8,13 @@ use crate::error::Error;
 use crate::results::numbers::{rounded, with_digits};
 use crate::results::output::{Sink, SinkExt, sorted_json, write_csv};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
-use asperity_formats::interface_law::{Exponential, InterfaceLaw};
+use asperity_formats::interface_law::{CALCULIX_CONDUCTANCE_ROWS, Exponential, InterfaceLaw};
 use asperity_roughness::joint::conductance_table;
 use asperity_roughness::read_as;
 use std::fmt::Write;
 
+/// Factor by which a tolerance grows until a table is short enough.
+const COARSER: f64 = 1.02;
 /// Share of points without a height from which on the decks say what pressures are over.
 const SEEN_MISSING_SHARE: f64 = 1e-4;
 /// The tables end at this many times the largest load that was computed, along the last tangent.
@@ -27,7 +29,9 @@ impl Joint {
         sink.write("joint.csv", |out| write_csv(out, &self.rows))?;
         let law = self.interface_law();
         let continued = InterfaceLaw { pressure: self.continued(&law.pressure), ..law.clone() };
-        sink.text("calculix.inp", &continued.calculix())?;
+        let (heat, heat_error) = self.conductances_for_calculix();
+        let calculix = InterfaceLaw { heat, heat_error, ..continued.clone() };
+        sink.text("calculix.inp", &calculix.calculix())?;
         sink.text("abaqus.inp", &continued.abaqus())?;
         sink.text("moose.csv", &self.with_rows_of_conductances(law).moose())?;
         for (name, chart) in self.charts() {
@@ -53,12 +57,7 @@ impl Joint {
     fn interface_law(&self) -> InterfaceLaw {
         let s = &self.summary;
         let touch = s.first_touch_gap_um * MICROMETRE;
-        let conductances = |of: fn(&JointRow) -> Option<f64>| {
-            let rows = self.rows.iter().take(1).chain(self.loaded());
-            let loads: Vec<_> =
-                rows.filter_map(|row| Some([row.pressure_MPa * MEGAPASCAL, of(row)?])).collect();
-            conductance_table(&loads, TABLE_TOLERANCE)
-        };
+        let conductances = |of| conductance_table(&self.conductances(of), TABLE_TOLERANCE);
         InterfaceLaw {
             head: self.head(),
             pressure: s
@@ -77,7 +76,28 @@ impl Joint {
                 }
             }),
             heat: conductances(|row| row.conductance_W_per_m2K),
+            heat_error: TABLE_TOLERANCE,
             current: conductances(|row| row.electrical_conductance_S_per_m2),
+        }
+    }
+
+    /// Pressure (Pa) and a conductance of first touch and of every load.
+    fn conductances(&self, of: fn(&JointRow) -> Option<f64>) -> Vec<[f64; 2]> {
+        let rows = self.rows.iter().take(1).chain(self.loaded());
+        rows.filter_map(|row| Some([row.pressure_MPa * MEGAPASCAL, of(row)?])).collect()
+    }
+
+    /// The thermal conductance in so few rows that CalculiX keeps them, and the share by which straight lines
+    /// between them are off the law.
+    fn conductances_for_calculix(&self) -> (Vec<[f64; 2]>, f64) {
+        let loads = self.conductances(|row| row.conductance_W_per_m2K);
+        let mut tolerance = TABLE_TOLERANCE;
+        loop {
+            let table = conductance_table(&loads, tolerance);
+            if table.len() <= CALCULIX_CONDUCTANCE_ROWS {
+                return (table, tolerance);
+            }
+            tolerance *= COARSER;
         }
     }
 
