@@ -68,7 +68,8 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     let mut grid = read_grid(text, request.missing_value, request.decimal)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
-    let said = Described::new(&grid.before, request)?;
+    let first = text.lines().nth(grid.lines[0] - 1).unwrap_or("");
+    let said = Described::new(&grid, first, request)?;
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
     let named =
         Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
@@ -90,7 +91,14 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         let columns = header.columns(&grid.dialect, columns, &POINT, &named)?;
         return points(grid, &columns, &said, notes);
     }
-    refuse_profile(&grid)?;
+    refuse_profile(&grid, request.override_file)?;
+    if let Some(rows) = grid.rows_of_parts.filter(|_| !request.override_file) {
+        let problem = format!(
+            "holds {} tables of {rows} rows, which empty lines or notes part: keep one in a file, or set override = true if they are one",
+            grid.rows() / rows
+        );
+        return Err(TextError::new(grid.lines[0], problem).into());
+    }
     let axes = axes::take(&mut grid)?.unwrap_or_default();
     if !axes.said.is_empty() {
         notes.push(axes.said.clone());
@@ -99,17 +107,17 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     said.refuse_scale(&grid.values, request)?;
     let (columns, rows) = (grid.columns, grid.rows());
     said.refuse_counts(columns, rows, request)?;
-    let spacing =
-        said.spacing(columns, rows).or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
-    notes.extend(said.notes());
+    let (spacing, doubt) = said.spacing([columns, rows], grid.empty_edges);
+    notes.extend(said.notes(spacing.is_some()));
+    notes.extend(doubt);
+    let spacing = spacing.or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
     let height_unit = said.height_unit.or(axes.height_unit);
     Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit, notes })
 }
 
 /// Distance of the points by the places beside them.
 fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
-    // one side alone tells of square pixels
-    let (x, y) = (axes.steps[0].or(axes.steps[1])?, axes.steps[1].or(axes.steps[0])?);
+    let (x, y) = (axes.steps[0]?, axes.steps[1]?);
     Some(match axes.lateral_unit.or(said.lateral_unit) {
         Some(unit) => Spacing::Metres([x * unit, y * unit]),
         None => Spacing::HeightUnits([x, y]),
@@ -174,7 +182,7 @@ fn points(
         _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
     };
     let height_unit = picks[2].scale.or(said.height_unit);
-    notes.extend(said.notes());
+    notes.extend(said.notes(false));
     Ok(Measured {
         columns: placed.columns,
         rows: placed.rows,
@@ -192,8 +200,9 @@ fn has_grid(grid: &Grid<'_>) -> bool {
     onto_grid(&points).is_ok_and(|placed| placed.heights.len() == points.len())
 }
 
-/// A column or a row of places beside one of heights is a profile.
-fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
+/// A column or a row of places beside one of heights is a profile; many rows of few columns are a list, unless
+/// it `is_told` that they are a map.
+fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
     let (columns, rows) = (grid.columns, grid.rows());
     let is_monotone = |places: &[f64]| {
         places.len() >= ROWS_OF_A_PROFILE
@@ -205,9 +214,13 @@ fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
         "holds one row or column of numbers: this is a profile, a map has at least 2 x 2 points".to_string()
     } else if along {
         "holds places and heights along a line: this is a profile x, z, not a map; `asperity crush` takes one as asperity.profile".into()
-    } else if columns <= 3 && rows >= ROWS_OF_NO_MAP * columns {
+    } else if columns <= MOST_COLUMNS_OF_POINTS
+        && rows >= ROWS_OF_NO_MAP * columns
+        && (columns <= 3 || !is_told)
+    {
         format!(
-            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"1\", y = \"2\", z = \"3\" }}"
+            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"1\", y = \"2\", z = \"3\" }}{}",
+            if columns > 3 { ", or set override = true if it is a map" } else { "" }
         )
     } else {
         return Ok(());
