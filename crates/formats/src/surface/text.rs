@@ -5,10 +5,14 @@ use super::axes::{self, Axes};
 use super::described::Described;
 use super::marks;
 use super::measured::{Measured, ReadError, Request, Spacing};
+use super::names::OF_HEIGHTS;
 use super::points::onto_grid;
 use super::titled;
 use crate::dimension::Dimension;
-use crate::text::{Asked, Columns, Grid, Header, Quantity, TextError, decode, read_grid};
+use crate::text::{
+    Asked, Columns, Grid, Header, Quantity, Separator, TextError, decode, folded_name, header_cells,
+    read_grid, shortened,
+};
 use std::path::Path;
 
 /// Most columns of a list of points: behind x, y, z may stand a quality or colours.
@@ -85,6 +89,10 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     let is_points =
         || (3..=MOST_COLUMNS_OF_POINTS).contains(&columns) && rows >= ROWS_OF_A_PROFILE && has_grid(&grid);
     if is_xyz || is_points() {
+        if let Some(columns) = half_named_points(&grid, &named)? {
+            notes.push(columns.said.clone());
+            return points(grid, &columns, &said, notes);
+        }
         notes.push("x, y, z from columns 1, 2, 3".into());
         let header = Header { line: 1, text: "", units: None };
         let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..named };
@@ -143,6 +151,45 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
     Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, named)?))
 }
 
+/// The columns of a header that calls the first two x and y, and the third by a name that z may have.
+///
+/// # Errors
+/// Names of which nothing tells what they are.
+fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<3>>, ReadError> {
+    let Some(&(line, text)) = grid.before.iter().rev().find(|(_, line)| !line.is_empty()) else {
+        return Ok(None);
+    };
+    let text = text.trim_start_matches(['#', '%', '/', ' ']);
+    let cells = header_cells(&grid.dialect, text, Some(grid.columns));
+    let is_x = |cell: &String| POINT[0].called.contains(&folded_name(cell).0.as_str());
+    // three words of a title are no names
+    let is_parted = grid.dialect.separator != Separator::Blanks || cells.first().is_some_and(is_x);
+    let is_named = cells.iter().all(|cell| cell.contains(char::is_alphabetic));
+    if cells.len() != grid.columns || !is_parted || !is_named {
+        return Ok(None);
+    }
+    let (name, unit) = folded_name(&cells[2]);
+    let is_length = unit.is_some_and(|unit| Dimension::Length.scale(&unit).is_some());
+    let is_down = ["depth", "tiefe", "profondeur"].iter().any(|word| name.contains(word));
+    let third = Asked { columns: [None, None, Some("3")], ..*named };
+    let header = Header::new(&grid.dialect, line, text, &POINT, &third);
+    match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down) {
+        Some(header) => Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, &third)?)),
+        None => {
+            let names: Vec<String> =
+                cells.iter().take(3).map(|cell| format!("\"{}\"", shortened(cell))).collect();
+            let problem = format!(
+                "names the columns {}, and not which are x, y and z (a depth points down): say columns = {{ x = {}, y = {}, z = {} }}",
+                names.join(", "),
+                names[0],
+                names[1],
+                names[2]
+            );
+            Err(TextError::new(line, problem).into())
+        }
+    }
+}
+
 /// The map through the points whose coordinates stand in `columns`.
 fn points(
     grid: Grid<'_>,
@@ -166,14 +213,17 @@ fn points(
     notes.extend(said.take_missing(points.iter_mut().map(|p| &mut p[2])));
     let placed = onto_grid(&points).map_err(|problem| TextError::new(grid.lines[0], problem))?;
     notes.extend(placed.note);
+    let counts = placed.step == [1.0; 2] && points.iter().all(|p| p[0].fract() == 0.0 && p[1].fract() == 0.0);
+    let (pixel, doubt) = said.spacing([placed.columns, placed.rows], [false; 2]);
+    notes.extend(doubt);
     let spacing = match scales {
+        // places that count pixels of a known size
+        [None, None] if counts && pixel.is_some() => pixel.unwrap_or(Spacing::Unknown),
         [Some(x), Some(y)] => Spacing::Metres([placed.step[0] * x, placed.step[1] * y]),
         [None, None] => match said.lateral_unit {
             Some(unit) => Spacing::Metres(placed.step.map(|step| step * unit)),
             // numbers of pixels say nothing of their size
-            None if placed.step == [1.0; 2]
-                && points.iter().all(|p| p[0].fract() == 0.0 && p[1].fract() == 0.0) =>
-            {
+            None if counts => {
                 notes.push("x and y without a unit count pixels".into());
                 Spacing::Unknown
             }
