@@ -1,9 +1,13 @@
 //! Words before the heights of a text file: size, pixels, units, wavelength.
 
 use super::measured::{ReadError, Request, Spacing};
-use super::remark::{Remark, number_and_unit};
+use super::names::{
+    COLUMNS, HEIGHT, LENGTH, MISSING, OF_HEIGHTS, OF_LENGTHS, OF_NOTHING, ROWS, UNIT, WEAK, WIDTH,
+};
+use super::remark::{Remark, has_decimal_comma, number_and_unit};
+use super::sides::{Sides, quoted};
 use crate::dimension::Dimension;
-use crate::text::TextError;
+use crate::text::{Decimal, Grid, TextError, folded_name};
 
 /// Statements of the file on its heights, lengths in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,7 +20,14 @@ pub(super) struct Described {
     sides: Sides,
     bare: Sides,
     wavelength: Option<f64>,
-    height_unit_name: String,
+    /// Metres per unit along x and y.
+    units: [Option<f64>; 2],
+    /// True where the unit of heights is said to be theirs.
+    is_of_heights: bool,
+    /// The mark before decimals, where anything tells it.
+    decimal: Option<Decimal>,
+    /// Whole numbers of the words, with their lines.
+    whole: Vec<(usize, usize)>,
     /// Columns and rows of the map, with the line that names them.
     counts: [Option<(usize, usize)>; 2],
     /// The ratio of the sides of the map.
@@ -31,242 +42,85 @@ pub(super) struct Described {
     scale: Option<(String, usize)>,
 }
 
-/// Sides of a map and of its pixels, in one unit.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Sides {
-    size: [Option<f64>; 2],
-    pixel: [Option<f64>; 2],
-    /// The one size that was named.
-    scan: Option<f64>,
-}
-
-/// Names of sizes and pixels, in small letters without accents.
-const WIDTH: &[&str] = &[
-    "width",
-    "breite",
-    "largeur",
-    "larghezza",
-    "ancho",
-    "anchura",
-    "largura",
-    "šiřka",
-    "ширина",
-    "幅",
-    "너비",
-    "宽度",
-    "x width",
-    "x range",
-    "range x",
-    "x size",
-    "size x",
-    "x length",
-    "length x",
-    "x scan size",
-    "scan width",
-    "image width",
-    "xlength",
-    "xsize",
-    "lx",
-    "x real",
-];
-const HEIGHT: &[&str] = &[
-    "height",
-    "hohe",
-    "hoehe",
-    "hauteur",
-    "altezza",
-    "alto",
-    "altura",
-    "vyška",
-    "высота",
-    "高さ",
-    "높이",
-    "高度",
-    "y width",
-    "y range",
-    "range y",
-    "y size",
-    "size y",
-    "y length",
-    "length y",
-    "y scan size",
-    "scan height",
-    "image height",
-    "ylength",
-    "ysize",
-    "ly",
-    "y real",
-    "y height",
-];
-const SIZE: &[&str] =
-    &["scan size", "scan range", "field of view", "size", "image size", "fov", "bildgrosse"];
-const PIXEL: &[&str] = &[
-    "pixel size",
-    "pixelsize",
-    "pixel",
-    "pixel spacing",
-    "pixel pitch",
-    "lateral resolution",
-    "xy calibration",
-    "xy kalibrierung",
-    "lateral calibration",
-    "lateral sampling",
-    "pixelgrosse",
-    "pixelgroesse",
-    "pixelabstand",
-    "punktabstand",
-    "taille de pixel",
-    "taille du pixel",
-    "taille pixel",
-    "resolution laterale",
-    "pas",
-    "spacing",
-    "sampling interval",
-    "sampling distance",
-    "sampling step",
-    "point spacing",
-    "step",
-    "step size",
-    "grid spacing",
-    "xy spacing",
-    "dimensione pixel",
-    "tamano de pixel",
-    "xy pixel size",
-    "pixel size xy",
-    "camera resolution",
-    "pitch",
-    "cellsize",
-    "cell size",
-];
-const X: &[&str] =
-    &["x", "dx", "pixel width", "delta x", "pas x", "xpixelsize", "x increment", "x scale", "scale x"];
-const Y: &[&str] =
-    &["y", "dy", "pixel height", "delta y", "pas y", "ypixelsize", "y increment", "y scale", "scale y"];
-
-/// Names of the second side of a map beside its width.
-const LENGTH: &[&str] = &["length", "lange", "laenge", "longueur", "lunghezza", "longitud", "comprimento"];
-/// Names of the number for points that were not measured.
-const MISSING: &[&str] = &[
-    "nodata",
-    "nodata value",
-    "no data value",
-    "invalid value",
-    "missing value",
-    "bad value",
-    "void value",
-    "fill value",
-    "fillvalue",
-    "invalid data value",
-    "null value",
-    "non measured value",
-    "ungultiger wert",
-    "valeur invalide",
-    "valeur manquante",
-];
-
-/// Names of the numbers of columns and rows, which stand without a unit.
-const COLUMNS: &[&str] = &[
-    "x pixels",
-    "x pixel",
-    "pixels x",
-    "nx",
-    "ncols",
-    "ncolumns",
-    "cols",
-    "columns",
-    "number of columns",
-    "dim x",
-    "x dim",
-    "x points",
-    "points x",
-    "horizontal",
-    "width pixels",
-    "width in pixels",
-];
-const ROWS: &[&str] = &[
-    "y pixels",
-    "y pixel",
-    "pixels y",
-    "ny",
-    "nrows",
-    "rows",
-    "number of rows",
-    "dim y",
-    "y dim",
-    "y points",
-    "points y",
-    "vertical",
-    "vertikal",
-    "height pixels",
-    "height in pixels",
-];
-
 impl Described {
-    /// Reads the lines before the heights.
+    /// Reads the lines before the heights; `first` is the first line of these.
     ///
     /// # Errors
-    /// Values in a unit that is no length.
-    pub fn new(before: &[(usize, &str)], request: &Request<'_>) -> Result<Described, ReadError> {
+    /// Values in a unit that is no length; two units of the heights.
+    pub fn new(grid: &Grid<'_>, first: &str, request: &Request<'_>) -> Result<Described, ReadError> {
         let remarks: Vec<Remark> =
-            before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
-        let mut said = Described::default();
-        let has = |names: &[&str], unit: Option<f64>| {
-            remarks.iter().any(|r| {
-                names.contains(&r.key.as_str()) && r.lengths(unit).first().is_some_and(Option::is_some)
+            grid.before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
+        let mut said = Described { decimal: decimal_of(grid, first, &remarks), ..Described::default() };
+        let place = |names: &[&str], unit: Option<f64>| {
+            remarks.iter().position(|r| {
+                let lengths = || r.lengths(&r.numbers(said.decimal), unit);
+                names.contains(&r.key.as_str()) && lengths().first().is_some_and(Option::is_some)
             })
         };
-        said.has_length = [None, Some(1.0)].map(|unit| has(WIDTH, unit) && has(LENGTH, unit));
+        let sides = [None, Some(1.0)].map(|unit| (place(WIDTH, unit), place(LENGTH, unit)));
+        said.has_length = sides.map(|(width, length)| width.is_some() && length.is_some());
         said.is_spip =
             remarks.iter().any(|r| r.key == "file format" && r.value.eq_ignore_ascii_case("ascii"));
         // units first: a number may stand without one
         for remark in &remarks {
             said.take_unit(remark, request)?;
         }
+        said.take_title(&grid.before);
+        let [x, y] = said.units;
+        said.lateral_unit = match (x, y) {
+            (Some(x), Some(y)) => Some(x).filter(|_| x == y),
+            (x, y) => x.or(y),
+        };
         if said.is_spip {
             said.lateral_unit = said.lateral_unit.or(Some(1e-9));
         }
         for remark in &remarks {
-            said.take_length(remark);
+            said.take_length(remark, false);
             said.take_count(remark);
             said.take_number(remark);
         }
-        if said.sides == Sides::default() {
-            said.take_by_place(&remarks);
+        if said.sides.is_empty() && said.bare.is_empty() {
+            remarks.iter().filter(|r| WEAK.contains(&r.key.as_str())).for_each(|r| said.take_length(r, true));
+        }
+        if let (Some(width), Some(length)) = sides[1]
+            && length < width
+        {
+            let why = "stands before the width, and may be the side along x or across";
+            said.sides.doubt(&remarks[length], why);
+            said.bare.doubt(&remarks[length], why);
+        }
+        if said.sides.is_empty() {
+            said.take_by_place(grid, &remarks);
         }
         Ok(said)
     }
 
+    /// A unit of heights or of lengths along the surface, by the words that stand with it.
     fn take_unit(&mut self, remark: &Remark, request: &Request<'_>) -> Result<(), ReadError> {
         let key = remark.key.as_str();
         if ["wavelength", "wellenlange", "wellenlaenge", "longueur d'onde"].contains(&key) {
-            let length = remark.lengths(Some(1e-9));
+            let length = remark.lengths(&remark.numbers(self.decimal), Some(1e-9));
             self.wavelength = length.first().copied().flatten();
         }
-        let has = |word: &str| key.contains(word);
-        if !["unit", "einheit", "unite", "unita", "unidad", "jednotk", "единиц", "単位"]
-            .iter()
-            .any(|w| has(w))
-        {
-            return Ok(());
-        }
+        let Some(words) = words_of_unit(key) else { return Ok(()) };
+        let has = |names: &[&str]| words.iter().any(|word| names.contains(word));
         let unit = remark.value.trim_matches(['(', ')', '[', ']', ' ']);
         let scale = Dimension::Length.scale(unit);
-        if ["x ", "y ", "xy ", "lateral", "xunit", "yunit", "unit x", "unit y", "unit xy"]
-            .iter()
-            .any(|w| key.starts_with(w))
-        {
-            self.lateral_unit = self.lateral_unit.or(scale);
+        if has(OF_LENGTHS) {
+            let is_of = [has(&["x"]), has(&["y"])];
+            let is_of = if is_of == [false; 2] { [true; 2] } else { is_of };
+            for (slot, _) in self.units.iter_mut().zip(is_of).filter(|(_, is_of)| *is_of) {
+                *slot = slot.or(scale);
+            }
             return Ok(());
         }
-        if self.height_unit.is_some() {
+        let is_of_heights = has(OF_HEIGHTS);
+        if !is_of_heights && !words.iter().all(|word| OF_NOTHING.contains(word)) {
             return Ok(());
         }
         let is_wave = ["wave", "waves", "wv", "wvs", "λ"].contains(&unit.to_lowercase().as_str());
-        self.height_unit = if is_wave { self.wavelength } else { scale };
-        self.height_unit_name = unit.into();
-        let is_of_heights =
-            ["value", "z", "height", "data", "wert", "valeur", "valore", "valor"].iter().any(|w| has(w));
-        if self.height_unit.is_none() && is_of_heights && !unit.is_empty() && !request.override_file {
+        let scale = if is_wave { self.wavelength } else { scale };
+        if is_of_heights && scale.is_none() && !unit.is_empty() && !request.override_file {
             let problem = if is_wave {
                 "says that its values are in waves, but not how long one is: give height_unit".to_string()
             } else {
@@ -277,14 +131,58 @@ impl Described {
             };
             return Err(TextError::new(remark.line, problem).into());
         }
+        match (self.height_unit, scale) {
+            (Some(known), Some(other)) if is_of_heights && self.is_of_heights && known != other => {
+                let problem = format!(
+                    "says that heights are in \"{unit}\", but a line above names another unit: delete the wrong one"
+                );
+                return Err(TextError::new(remark.line, problem).into());
+            }
+            // one of heights goes before one of anything
+            (Some(_), _) if !is_of_heights || self.is_of_heights => {}
+            _ => (self.height_unit, self.is_of_heights) = (scale.or(self.height_unit), is_of_heights),
+        }
         Ok(())
     }
 
-    fn take_length(&mut self, remark: &Remark) {
-        let lengths: Option<Vec<f64>> = remark.lengths(self.lateral_unit).into_iter().collect();
-        match lengths.filter(|lengths| !lengths.is_empty()) {
-            Some(lengths) => self.sides.take(&remark.key, &lengths, self.has_length[0]),
-            None => self.bare.take(&remark.key, &remark.bare_numbers(), self.has_length[1]),
+    /// The unit of a title: `Height [nm]`, `z: um`, `Heights in nm`.
+    fn take_title(&mut self, before: &[(usize, &str)]) {
+        const LONGEST_TITLE: usize = 80;
+        for (_, text) in before.iter().filter(|(_, text)| text.len() < LONGEST_TITLE) {
+            let text = text.trim_start_matches(['#', '%', '/', ' ']).replace([':', '='], " ");
+            let (name, unit) = folded_name(&text);
+            let scale = unit.and_then(|unit| Dimension::Length.scale(&unit));
+            let mut words = name.split(' ');
+            let is_title = words.clone().all(|word| OF_HEIGHTS.contains(&word) || OF_NOTHING.contains(&word))
+                && words.any(|word| OF_HEIGHTS.contains(&word));
+            if let (true, Some(scale)) = (is_title, scale) {
+                self.height_unit = self.height_unit.or(Some(scale));
+            }
+        }
+    }
+
+    fn take_length(&mut self, remark: &Remark, is_weak: bool) {
+        let key = remark.key.as_str();
+        if !is_weak && !Sides::is_side(key) && !LENGTH.contains(&key) {
+            return;
+        }
+        let numbers = remark.numbers(self.decimal);
+        if numbers.is_range || numbers.list.iter().any(|(number, _)| number.is_nan()) {
+            let why = if numbers.is_range {
+                "may tell places or a side"
+            } else {
+                "may be a thousand or a fraction"
+            };
+            let sides =
+                if remark.lengths(&numbers, None).is_empty() { &mut self.bare } else { &mut self.sides };
+            return sides.doubt(remark, why);
+        }
+        let lengths: Option<Vec<f64>> = remark.lengths(&numbers, self.lateral_unit).into_iter().collect();
+        match lengths {
+            Some(lengths) if !lengths.is_empty() => {
+                self.sides.take(remark, &lengths, self.has_length[0], is_weak)
+            }
+            _ => self.bare.take(remark, &remark.bare_numbers(&numbers), self.has_length[1], is_weak),
         }
     }
 
@@ -308,9 +206,23 @@ impl Described {
 
     /// A mark of missing points, a ratio of sides, a factor of heights.
     fn take_number(&mut self, remark: &Remark) {
-        const SCALES: [&str; 8] =
-            ["scale", "calibration", "kalibrierung", "factor", "faktor", "multiplier", "scaling", "lsb"];
+        const SCALES: [&str; 10] = [
+            "scale",
+            "calibration",
+            "kalibrierung",
+            "factor",
+            "faktor",
+            "multiplier",
+            "scaling",
+            "lsb",
+            "resolution",
+            "increment",
+        ];
         const HEIGHTS: [&str; 7] = ["z", "data", "height", "heights", "value", "values", "vertical"];
+        let numbers = remark.numbers(self.decimal);
+        let is_whole = |number: &&(f64, Option<String>)| number.0 >= 2.0 && number.0.fract() == 0.0;
+        let whole = numbers.list.iter().filter(is_whole).map(|(number, _)| (remark.line, *number as usize));
+        self.whole.extend(whole);
         let Some((number, rest)) = number_and_unit(&remark.value) else { return };
         let key = remark.key.as_str();
         let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
@@ -320,7 +232,7 @@ impl Described {
             let other =
                 rest.trim().strip_prefix(':').and_then(number_and_unit).map_or(1.0, |(other, _)| other);
             self.aspect = Some(number / other);
-        } else if (has(&SCALES) && has(&HEIGHTS) || key == "bit2nm") && number != 1.0 {
+        } else if (has(&SCALES) && has(&HEIGHTS) || ["bit2nm", "lsb"].contains(&key)) && number != 1.0 {
             self.scale = self.scale.take().or(Some((format!("{key} = {}", remark.value), remark.line)));
         }
     }
@@ -365,110 +277,115 @@ impl Described {
                 return Err(TextError::new(line, problem).into());
             }
         }
-        Ok(())
-    }
-
-    /// Gwyddion writes width, height and unit of the values below each other, in any language.
-    fn take_by_place(&mut self, remarks: &[Remark]) {
-        for three in remarks.windows(3) {
-            let [width, height] = [&three[0], &three[1]].map(|r| r.lengths(None).first().copied().flatten());
-            let follow = three[1].line == three[0].line + 1 && three[2].line == three[1].line + 1;
-            if let (true, Some(width), Some(height), Some(unit)) =
-                (follow, width, height, Dimension::Length.scale(&three[2].value))
-            {
-                self.sides.size = [Some(width), Some(height)];
-                self.height_unit = Some(unit);
-                self.height_unit_name.clone_from(&three[2].value);
-                return;
+        // two numbers that multiply to the count of heights are those of columns and rows
+        let is_other = |two: &&[(usize, usize)]| {
+            let ((first, a), (second, b)) = (two[0], two[1]);
+            second - first <= 1
+                && a.checked_mul(b) == Some(columns * rows)
+                && ![[columns, rows], [rows, columns]].contains(&[a, b])
+        };
+        match self.whole.windows(2).find(is_other) {
+            Some(two) if !request.override_file => {
+                let ((line, a), (_, b)) = (two[0], two[1]);
+                let problem = format!(
+                    "says {a} and {b}, which is the number of heights, but they stand in {rows} lines of {columns}: write \
+                     each row of the map in one line, correct this line or delete it, or set override = true"
+                );
+                Err(TextError::new(line, problem).into())
             }
+            _ => Ok(()),
         }
     }
 
-    /// Distance of the points of a map of so many columns and rows.
-    pub fn spacing(&self, columns: usize, rows: usize) -> Option<Spacing> {
-        if let Some(steps) = self.sides.steps(columns, rows, self.aspect) {
-            return Some(Spacing::Metres(steps));
+    /// Gwyddion writes its channel, width, height and unit of the values below each other, each behind #, in
+    /// any language. Other programs may write other lengths so: those of square pixels, or in words that are
+    /// not in plain letters, are taken.
+    fn take_by_place(&mut self, grid: &Grid<'_>, remarks: &[Remark]) {
+        let lines: Vec<&(usize, &str)> = grid.before.iter().filter(|(_, text)| !text.is_empty()).collect();
+        let [_, width, height, unit] = remarks else { return };
+        if lines.len() != 4 || !lines.iter().all(|(_, text)| text.starts_with('#')) {
+            return;
         }
-        // a width of 3 of a map of 3 columns counts these
-        let is_count = self.bare.size == [Some(columns as f64), Some(rows as f64)];
-        let steps = self.bare.steps(columns, rows, self.aspect)?;
-        (self.sides == Sides::default() && !is_count).then_some(Spacing::Numbers(steps))
+        let length = |remark: &Remark| match remark.lengths(&remark.numbers(self.decimal), None)[..] {
+            [length] => length,
+            _ => None,
+        };
+        let (Some(x), Some(y), Some(scale)) =
+            (length(width), length(height), Dimension::Length.scale(&unit.value))
+        else {
+            return;
+        };
+        let ratio = x / y * grid.rows() as f64 / grid.columns as f64;
+        if (ratio - 1.0).abs() < 0.01 || !width.key.is_ascii() && !height.key.is_ascii() {
+            self.sides.set_size([x, y], &quoted(width));
+            self.height_unit = Some(scale);
+        }
+    }
+
+    /// Distance of the points of a map of so many columns and rows, and the reason where lines on it are not
+    /// certain; `uncertain` where empty cells stand at the edges.
+    pub fn spacing(&self, counts: [usize; 2], uncertain: [bool; 2]) -> (Option<Spacing>, Option<String>) {
+        let found = match self.sides.steps(counts, uncertain, self.aspect) {
+            Ok(Some(steps)) => return (Some(Spacing::Metres(steps)), None),
+            // a width of 3 of a map of 3 columns counts these
+            Ok(None) if self.sides.is_empty() && !self.bare.are_counts(counts) => {
+                self.bare.steps(counts, uncertain, self.aspect)
+            }
+            Ok(None) => return (None, None),
+            Err(doubt) => Err(doubt),
+        };
+        match found {
+            Ok(steps) => (steps.map(Spacing::Numbers), None),
+            Err(doubt) => (None, Some(format!("{doubt}: no size was taken from it"))),
+        }
     }
 
     /// The finding, in words.
-    pub fn notes(&self) -> Option<String> {
+    pub fn notes(&self, has_size: bool) -> Option<String> {
         let found = [
-            (self.sides != Sides::default(), "size of the map or of its pixels"),
+            (has_size, "size of the map or of its pixels"),
             (self.height_unit.is_some(), "unit of the heights"),
         ];
         let found: Vec<&str> = found.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect();
-        let square =
-            if self.sides.sole().is_some() { ", the one size along a line and pixels square" } else { "" };
+        let square = if has_size && self.sides.sole().is_some() {
+            ", the one size along a line and pixels square"
+        } else {
+            ""
+        };
         let spip = if self.is_spip { ", sizes in nm where SPIP names no unit" } else { "" };
         (!found.is_empty())
             .then(|| format!("{} from the words before the heights{square}{spip}", found.join(" and ")))
     }
 }
 
-impl Sides {
-    /// Takes what `key` names.
-    fn take(&mut self, key: &str, lengths: &[f64], has_length: bool) {
-        let Some(&first) = lengths.first() else { return };
-        let second = lengths.get(1).copied().unwrap_or(first);
-        let without = |axis: &str| {
-            let rest = key.strip_prefix(axis).or_else(|| key.strip_suffix(axis)).map(str::trim);
-            rest.is_some_and(|rest| PIXEL.contains(&rest))
-        };
-        let set = |slot: &mut Option<f64>, value: f64| *slot = slot.or(Some(value));
-        if PIXEL.contains(&key) {
-            set(&mut self.pixel[0], first);
-            set(&mut self.pixel[1], second);
-        } else if X[1..].contains(&key) || without("x") {
-            set(&mut self.pixel[0], first);
-        } else if Y[1..].contains(&key) || without("y") {
-            set(&mut self.pixel[1], first);
-        } else if SIZE.contains(&key) && lengths.len() == 1 {
-            set(&mut self.scan, first);
-        } else if SIZE.contains(&key) {
-            set(&mut self.size[0], first);
-            set(&mut self.size[1], second);
-        } else if WIDTH.contains(&key) {
-            set(&mut self.size[0], first);
-        } else if Sides::is_second_side(key, has_length) {
-            set(&mut self.size[1], first);
-        }
+/// The mark before decimals: as the heights are written, else as a number of the words can only be.
+fn decimal_of(grid: &Grid<'_>, first: &str, remarks: &[Remark]) -> Option<Decimal> {
+    let has_comma = |r: &Remark| {
+        r.value
+            .split([' ', 'x', '×'])
+            .any(|word| word.starts_with(|c: char| c.is_ascii_digit()) && has_decimal_comma(word))
+    };
+    if grid.dialect.decimal == Decimal::Comma {
+        Some(Decimal::Comma)
+    } else if first.contains('.') {
+        Some(Decimal::Point)
+    } else {
+        remarks.iter().any(has_comma).then_some(Decimal::Comma)
     }
+}
 
-    /// True of the name of the side across the width: the length, where width and length are named, and then
-    /// no bare height.
-    fn is_second_side(key: &str, has_length: bool) -> bool {
-        let is_bare = !key.contains(['x', 'y', ' ']);
-        if has_length && (is_bare || LENGTH.contains(&key)) {
-            LENGTH.contains(&key)
-        } else {
-            HEIGHT.contains(&key)
+/// The words beside that for a unit in a key; `None` where it names no unit.
+fn words_of_unit(key: &str) -> Option<Vec<&str>> {
+    let mut is_unit = false;
+    let words = key.split([' ', '.', '(', ')']).map(|word| {
+        let stem = UNIT.iter().find(|stem| word.contains(*stem));
+        is_unit |= stem.is_some();
+        match stem.and_then(|stem| word.split_once(stem)) {
+            Some((before, "" | "s" | "en")) => before,
+            Some(("", after)) => after,
+            _ => word,
         }
-    }
-
-    /// The one size that was named, where nothing else tells the sides.
-    fn sole(&self) -> Option<f64> {
-        self.scan.filter(|_| self.size == [None; 2] && self.pixel == [None; 2])
-    }
-
-    /// Distance of the points along x and y of a map of so many columns and rows.
-    fn steps(&self, columns: usize, rows: usize, aspect: Option<f64>) -> Option<[f64; 2]> {
-        if let Some(scan) = self.sole() {
-            // square pixels along the longer side, which is that of a line; else the file does not tell
-            let ratio = rows as f64 / columns as f64;
-            let fits = aspect
-                .is_none_or(|aspect| [ratio, 1.0 / ratio].iter().any(|r| (r / aspect - 1.0).abs() < 0.02));
-            return (columns >= rows && fits).then_some([scan / columns as f64; 2]);
-        }
-        let from_size = |k: usize, count: usize| self.size[k].map(|size| size / count as f64);
-        let x = self.pixel[0].or_else(|| from_size(0, columns));
-        let y = self.pixel[1].or_else(|| from_size(1, rows));
-        // one side alone tells of square pixels
-        let (x, y) = (x.or(y)?, y.or(x)?);
-        (x > 0.0 && y > 0.0).then_some([x, y])
-    }
+    });
+    let words: Vec<&str> = words.collect();
+    is_unit.then_some(words)
 }

@@ -21,6 +21,11 @@ const MARKS: [f64; 13] = [
 /// Distance of a mark from all heights, in ranges of these.
 const LEAST_DISTANCE: f64 = 3.0;
 
+/// The same of a number that is none of these, but stands there more than once.
+const DISTANCE_OF_REPEATED: f64 = 10.0;
+/// The same of any number: no surface has a single point so far away.
+const DISTANCE_OF_ANY: f64 = 1e3;
+
 /// Refuses heights whose lowest or highest is such a number, far from all others.
 ///
 /// # Errors
@@ -33,11 +38,16 @@ pub(super) fn refuse(heights: &[f64], request: &Request<'_>) -> Result<(), ReadE
         let there = heights.iter().filter(|z| z.is_finite() && Some(**z) != without);
         there.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(*z), high.max(*z)])
     };
-    for end in range(None).into_iter().filter(|end| MARKS.contains(end)) {
+    for end in range(None) {
         let [low, high] = range(Some(end));
         let distance = (low - end).max(end - high);
-        if high > low && distance > LEAST_DISTANCE * (high - low) {
-            let count = heights.iter().filter(|z| **z == end).count();
+        let count = heights.iter().filter(|z| **z == end).count();
+        let least = match count {
+            _ if MARKS.contains(&end) => LEAST_DISTANCE,
+            1 => DISTANCE_OF_ANY,
+            _ => DISTANCE_OF_REPEATED,
+        };
+        if high > low && distance > least * (high - low) {
             let problem = format!(
                 "holds {end} at {count} points, far from all other heights ({low} to {high}), as programs write it for points that \
                  were not measured: set missing_value = {end}, or override = true if it is a height"

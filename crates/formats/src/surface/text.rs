@@ -5,10 +5,14 @@ use super::axes::{self, Axes};
 use super::described::Described;
 use super::marks;
 use super::measured::{Measured, ReadError, Request, Spacing};
+use super::names::OF_HEIGHTS;
 use super::points::onto_grid;
 use super::titled;
 use crate::dimension::Dimension;
-use crate::text::{Asked, Columns, Grid, Header, Quantity, TextError, decode, read_grid};
+use crate::text::{
+    Asked, Columns, Grid, Header, Quantity, Separator, TextError, decode, folded_name, header_cells,
+    read_grid, shortened,
+};
 use std::path::Path;
 
 /// Most columns of a list of points: behind x, y, z may stand a quality or colours.
@@ -68,7 +72,8 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     let mut grid = read_grid(text, request.missing_value, request.decimal)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
-    let said = Described::new(&grid.before, request)?;
+    let first = text.lines().nth(grid.lines[0] - 1).unwrap_or("");
+    let said = Described::new(&grid, first, request)?;
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
     let named =
         Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
@@ -84,13 +89,24 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     let is_points =
         || (3..=MOST_COLUMNS_OF_POINTS).contains(&columns) && rows >= ROWS_OF_A_PROFILE && has_grid(&grid);
     if is_xyz || is_points() {
+        if let Some(columns) = half_named_points(&grid, &named)? {
+            notes.push(columns.said.clone());
+            return points(grid, &columns, &said, notes);
+        }
         notes.push("x, y, z from columns 1, 2, 3".into());
         let header = Header { line: 1, text: "", units: None };
         let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..named };
         let columns = header.columns(&grid.dialect, columns, &POINT, &named)?;
         return points(grid, &columns, &said, notes);
     }
-    refuse_profile(&grid)?;
+    refuse_profile(&grid, request.override_file)?;
+    if let Some(rows) = grid.rows_of_parts.filter(|_| !request.override_file) {
+        let problem = format!(
+            "holds {} tables of {rows} rows, which empty lines or notes part: keep one in a file, or set override = true if they are one",
+            grid.rows() / rows
+        );
+        return Err(TextError::new(grid.lines[0], problem).into());
+    }
     let axes = axes::take(&mut grid)?.unwrap_or_default();
     if !axes.said.is_empty() {
         notes.push(axes.said.clone());
@@ -99,17 +115,17 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     said.refuse_scale(&grid.values, request)?;
     let (columns, rows) = (grid.columns, grid.rows());
     said.refuse_counts(columns, rows, request)?;
-    let spacing =
-        said.spacing(columns, rows).or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
-    notes.extend(said.notes());
+    let (spacing, doubt) = said.spacing([columns, rows], grid.empty_edges);
+    notes.extend(said.notes(spacing.is_some()));
+    notes.extend(doubt);
+    let spacing = spacing.or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
     let height_unit = said.height_unit.or(axes.height_unit);
     Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit, notes })
 }
 
 /// Distance of the points by the places beside them.
 fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
-    // one side alone tells of square pixels
-    let (x, y) = (axes.steps[0].or(axes.steps[1])?, axes.steps[1].or(axes.steps[0])?);
+    let (x, y) = (axes.steps[0]?, axes.steps[1]?);
     Some(match axes.lateral_unit.or(said.lateral_unit) {
         Some(unit) => Spacing::Metres([x * unit, y * unit]),
         None => Spacing::HeightUnits([x, y]),
@@ -135,6 +151,45 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
     Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, named)?))
 }
 
+/// The columns of a header that calls the first two x and y, and the third by a name that z may have.
+///
+/// # Errors
+/// Names of which nothing tells what they are.
+fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<3>>, ReadError> {
+    let Some(&(line, text)) = grid.before.iter().rev().find(|(_, line)| !line.is_empty()) else {
+        return Ok(None);
+    };
+    let text = text.trim_start_matches(['#', '%', '/', ' ']);
+    let cells = header_cells(&grid.dialect, text, Some(grid.columns));
+    let is_x = |cell: &String| POINT[0].called.contains(&folded_name(cell).0.as_str());
+    // three words of a title are no names
+    let is_parted = grid.dialect.separator != Separator::Blanks || cells.first().is_some_and(is_x);
+    let is_named = cells.iter().all(|cell| cell.contains(char::is_alphabetic));
+    if cells.len() != grid.columns || !is_parted || !is_named {
+        return Ok(None);
+    }
+    let (name, unit) = folded_name(&cells[2]);
+    let is_length = unit.is_some_and(|unit| Dimension::Length.scale(&unit).is_some());
+    let is_down = ["depth", "tiefe", "profondeur"].iter().any(|word| name.contains(word));
+    let third = Asked { columns: [None, None, Some("3")], ..*named };
+    let header = Header::new(&grid.dialect, line, text, &POINT, &third);
+    match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down) {
+        Some(header) => Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, &third)?)),
+        None => {
+            let names: Vec<String> =
+                cells.iter().take(3).map(|cell| format!("\"{}\"", shortened(cell))).collect();
+            let problem = format!(
+                "names the columns {}, and not which are x, y and z (a depth points down): say columns = {{ x = {}, y = {}, z = {} }}",
+                names.join(", "),
+                names[0],
+                names[1],
+                names[2]
+            );
+            Err(TextError::new(line, problem).into())
+        }
+    }
+}
+
 /// The map through the points whose coordinates stand in `columns`.
 fn points(
     grid: Grid<'_>,
@@ -158,14 +213,17 @@ fn points(
     notes.extend(said.take_missing(points.iter_mut().map(|p| &mut p[2])));
     let placed = onto_grid(&points).map_err(|problem| TextError::new(grid.lines[0], problem))?;
     notes.extend(placed.note);
+    let counts = placed.step == [1.0; 2] && points.iter().all(|p| p[0].fract() == 0.0 && p[1].fract() == 0.0);
+    let (pixel, doubt) = said.spacing([placed.columns, placed.rows], [false; 2]);
+    notes.extend(doubt);
     let spacing = match scales {
+        // places that count pixels of a known size
+        [None, None] if counts && pixel.is_some() => pixel.unwrap_or(Spacing::Unknown),
         [Some(x), Some(y)] => Spacing::Metres([placed.step[0] * x, placed.step[1] * y]),
         [None, None] => match said.lateral_unit {
             Some(unit) => Spacing::Metres(placed.step.map(|step| step * unit)),
             // numbers of pixels say nothing of their size
-            None if placed.step == [1.0; 2]
-                && points.iter().all(|p| p[0].fract() == 0.0 && p[1].fract() == 0.0) =>
-            {
+            None if counts => {
                 notes.push("x and y without a unit count pixels".into());
                 Spacing::Unknown
             }
@@ -174,7 +232,7 @@ fn points(
         _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
     };
     let height_unit = picks[2].scale.or(said.height_unit);
-    notes.extend(said.notes());
+    notes.extend(said.notes(false));
     Ok(Measured {
         columns: placed.columns,
         rows: placed.rows,
@@ -192,8 +250,9 @@ fn has_grid(grid: &Grid<'_>) -> bool {
     onto_grid(&points).is_ok_and(|placed| placed.heights.len() == points.len())
 }
 
-/// A column or a row of places beside one of heights is a profile.
-fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
+/// A column or a row of places beside one of heights is a profile; many rows of few columns are a list, unless
+/// it `is_told` that they are a map.
+fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
     let (columns, rows) = (grid.columns, grid.rows());
     let is_monotone = |places: &[f64]| {
         places.len() >= ROWS_OF_A_PROFILE
@@ -205,9 +264,13 @@ fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
         "holds one row or column of numbers: this is a profile, a map has at least 2 x 2 points".to_string()
     } else if along {
         "holds places and heights along a line: this is a profile x, z, not a map; `asperity crush` takes one as asperity.profile".into()
-    } else if columns <= 3 && rows >= ROWS_OF_NO_MAP * columns {
+    } else if columns <= MOST_COLUMNS_OF_POINTS
+        && rows >= ROWS_OF_NO_MAP * columns
+        && (columns <= 3 || !is_told)
+    {
         format!(
-            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"1\", y = \"2\", z = \"3\" }}"
+            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"1\", y = \"2\", z = \"3\" }}{}",
+            if columns > 3 { ", or set override = true if it is a map" } else { "" }
         )
     } else {
         return Ok(());

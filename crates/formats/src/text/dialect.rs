@@ -47,7 +47,7 @@ fn is_missing_word(word: &str) -> bool {
     let number = word.trim_start_matches(['-', '+']);
     WORDS.contains(&word.as_str())
         || word.bytes().all(|b| b == b'*')
-        || number == "nan"
+        || ["nan", "inf", "infinity"].contains(&number)
         || number.starts_with("nan(")
         || ["1.#", "1,#"].iter().any(|start| number.starts_with(start))
 }
@@ -62,10 +62,10 @@ fn first_word(line: &str) -> &str {
 }
 
 /// A number by its characters alone, whichever mark stands before its decimals.
-fn looks_like_number(word: &str) -> bool {
+pub(super) fn looks_like_number(word: &str) -> bool {
     let word = word.trim_matches('"');
     word.contains(|c: char| c.is_ascii_digit())
-        && word.chars().all(|c| c.is_ascii_digit() || "+-−.,eEdD\u{a0}\u{202f}".contains(c))
+        && word.chars().all(|c| c.is_ascii_digit() || "+-−.,eEdD'’ \u{a0}\u{202f}".contains(c))
         && !word.starts_with(['e', 'E', 'd', 'D'])
 }
 
@@ -239,7 +239,7 @@ impl Dialect {
                 _ if c == mark => plain.push('.'),
                 _ if c == other => {}
                 '−' => plain.push('-'),
-                '\u{a0}' | '\u{202f}' | '\'' => {}
+                '\u{a0}' | '\u{202f}' | '\'' | '’' => {}
                 'd' | 'D' => plain.push('e'),
                 _ => plain.push(c),
             }

@@ -1,6 +1,6 @@
 //! Rows of numbers, as many in each: the heights of a map, or points line by line.
 
-use super::dialect::{Decimal, Dialect, is_comment, is_row};
+use super::dialect::{Decimal, Dialect, is_comment, is_row, looks_like_number};
 use super::{TextError, shortened};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -22,6 +22,10 @@ pub struct Grid<'t> {
     pub corner_is_empty: bool,
     /// Lines behind the numbers that hold none.
     pub after: usize,
+    /// True where columns, and rows, without a number stand at the edges: they may be of the map or not.
+    pub empty_edges: [bool; 2],
+    /// Rows in each of several tables of equal size that empty lines or notes part.
+    pub rows_of_parts: Option<usize>,
 }
 
 /// Bytes of text that one task reads.
@@ -31,6 +35,10 @@ const PART: usize = 1 << 20;
 struct Part {
     values: Vec<f64>,
     all_end_empty: bool,
+    /// The same of their beginning.
+    all_start_empty: bool,
+    /// Rows before each empty line or note.
+    breaks: Vec<usize>,
 }
 
 /// Reads the rows of numbers of `text`. Numbers that are `missing` in the file count as none; `decimal` is
@@ -45,6 +53,8 @@ pub fn read_grid(text: &str, missing: Option<f64>, decimal: Option<Decimal>) -> 
     let (end, after) = ending(text, start);
     let body = &text[start..end];
     let columns = dialect.cells(first).count();
+    let outside = [&text[..start], &text[end..]];
+    refuse_lost_rows(&dialect, outside, [0, text[..end].lines().count()], columns)?;
     let parts: Vec<Result<Part, TextError>> = parts_of(body)
         .into_par_iter()
         .map(|range| read_part(&dialect, &body[range], columns, missing))
@@ -53,19 +63,26 @@ pub fn read_grid(text: &str, missing: Option<f64>, decimal: Option<Decimal>) -> 
     let lines = [line + 1, line + body.lines().count()];
     let count = parts.iter().flatten().map(|part| part.values.len()).sum();
     let mut values = Vec::with_capacity(count);
-    let mut all_end_empty = true;
+    let (mut all_end_empty, mut all_start_empty, mut breaks) = (true, true, Vec::new());
     for (part, range) in parts.into_iter().zip(parts_of(body)) {
         let part = part.map_err(|e| TextError { line: e.line.map(|l| l + line), ..e })?;
+        breaks.extend(part.breaks.iter().map(|rows| rows + values.len() / columns));
         values.extend_from_slice(&part.values);
         all_end_empty &= part.all_end_empty;
+        all_start_empty &= part.all_start_empty;
         line += body[range].lines().count();
     }
     let corner = dialect.cells(first).next().unwrap_or("");
     let corner_is_empty = dialect.number(corner).is_none_or(f64::is_nan);
-    let mut grid = Grid { dialect, before, columns, values, lines, corner_is_empty, after };
+    let rows_of_parts = equal_parts(breaks, values.len() / columns);
+    let empty_edges = [all_start_empty, has_empty_rows(&dialect, outside, columns)];
+    let mut grid =
+        Grid { dialect, before, columns, values, lines, corner_is_empty, after, empty_edges, rows_of_parts };
     if all_end_empty && columns > 1 {
         // a separator at the end of every line makes no further column
         grid.drop_last_column();
+        let mut last = grid.values.iter().skip(grid.columns - 1).step_by(grid.columns);
+        grid.empty_edges[0] |= last.all(|z| z.is_nan());
     }
     Ok(grid)
 }
@@ -142,6 +159,60 @@ fn ending(text: &str, start: usize) -> (usize, usize) {
     (end, after)
 }
 
+/// True of a line that parts as many cells as a row and holds no number.
+fn is_empty_row(dialect: &Dialect, line: &str, columns: usize) -> bool {
+    let cells = || dialect.cells(line);
+    columns > 1
+        && (columns..=columns + 1).contains(&cells().count())
+        && cells().all(|cell| dialect.number(cell).is_some_and(f64::is_nan))
+}
+
+/// True where rows without a number stand beside those with, which a spreadsheet did not fill up.
+fn has_empty_rows(dialect: &Dialect, [before, after]: [&str; 2], columns: usize) -> bool {
+    let is_empty = |line: &str| is_empty_row(dialect, line, columns);
+    let is_filled_up = before.lines().any(|line| dialect.cells(line).count() >= columns && !is_empty(line));
+    let beside = [before.lines().next_back(), after.lines().next()];
+    !is_filled_up && beside.into_iter().flatten().any(is_empty)
+}
+
+/// Refuses lines beside the rows that are rows but for a word or the way that numbers are written: before
+/// them those that begin with a number, behind them all.
+fn refuse_lost_rows(
+    dialect: &Dialect,
+    outside: [&str; 2],
+    first: [usize; 2],
+    columns: usize,
+) -> Result<(), TextError> {
+    let bad = |line: &str, is_behind: bool| {
+        let cells: Vec<&str> = dialect.cells(line).collect();
+        let is_wide = columns > 2 && (columns..=columns + 1).contains(&cells.len());
+        let is_like_row = is_behind || cells.first().is_some_and(|cell| looks_like_number(cell));
+        let count = cells.iter().filter(|cell| looks_like_number(cell)).count();
+        let bad = cells.iter().find(|cell| dialect.number(cell).is_none()).map(|cell| (*cell).to_string());
+        bad.filter(|_| is_wide && is_like_row && 2 * count >= columns && !is_comment(line.trim()))
+    };
+    for (k, text) in outside.into_iter().enumerate() {
+        let line =
+            if k == 0 { text.lines().next_back() } else { text.lines().find(|l| !l.trim().is_empty()) };
+        if let Some(cell) = line.and_then(|line| bad(line, k == 1)) {
+            let count = text.lines().count();
+            let empty = text.lines().take_while(|l| l.trim().is_empty()).count();
+            let place = if k == 0 { count } else { first[1] + 1 + empty };
+            return Err(TextError::new(place, dialect.refuse(&cell)));
+        }
+    }
+    Ok(())
+}
+
+/// Rows in each part of a table that `breaks` cut into several of equal size, above one row.
+fn equal_parts(mut breaks: Vec<usize>, rows: usize) -> Option<usize> {
+    breaks.retain(|at| (1..rows).contains(at));
+    breaks.dedup();
+    let each = *breaks.first()?;
+    let all = breaks.iter().chain([&rows]).enumerate().all(|(i, at)| *at == (i + 1) * each);
+    (each > 1 && all).then_some(each)
+}
+
 /// Parts of a text that end with a line.
 fn parts_of(text: &str) -> Vec<Range<usize>> {
     let mut parts = Vec::new();
@@ -157,15 +228,23 @@ fn parts_of(text: &str) -> Vec<Range<usize>> {
 }
 
 fn read_part(dialect: &Dialect, text: &str, columns: usize, missing: Option<f64>) -> Result<Part, TextError> {
-    let mut part = Part { values: Vec::with_capacity(text.len() / 8), all_end_empty: true };
+    let mut part = Part {
+        values: Vec::with_capacity(text.len() / 8),
+        all_end_empty: true,
+        all_start_empty: true,
+        breaks: Vec::new(),
+    };
     for (i, line) in text.lines().enumerate() {
         let bare = line.trim_start();
-        if bare.is_empty() || is_comment(bare) {
+        let is_bare = bare.is_empty() && !is_empty_row(dialect, line, columns);
+        if is_bare || is_comment(bare) {
+            part.breaks.push(part.values.len() / columns);
             continue;
         }
         let start = part.values.len();
         let mut last = "";
         for cell in dialect.cells(line) {
+            part.all_start_empty &= part.values.len() > start || cell.is_empty();
             last = cell;
             match dialect.number(cell) {
                 Some(value) => part.values.push(if Some(value) == missing { f64::NAN } else { value }),

@@ -1,0 +1,137 @@
+//! Claims about words before the heights that name sides, units and counts, and about rows at the edges.
+
+use super::*;
+
+/// A map of 4 x 3 heights that are not even along a line.
+const MAP: &str = "0.1 0.7 0.2 0.9\n0.5 0.3 0.8 0.4\n0.6 0.2 0.9 0.1\n";
+const PIXEL: &str = "Pixel size: 2 um x 1 um\n";
+
+fn found(text: &str) -> Result<Measured, String> {
+    let folder = Folder::new();
+    read_plain(&folder.file("a.txt", text.as_bytes())).map_err(|e| e.to_string())
+}
+
+/// The pixel in um that the words give, or what is said of it.
+fn pixel(words: &str) -> Result<[f64; 2], String> {
+    let map = found(&format!("{words}{MAP}"))?;
+    match map.spacing {
+        Spacing::Metres(pixel) => Ok(pixel.map(|side| (side * 1e9).round() / 1e3)),
+        _ => Err(map.notes.join("; ")),
+    }
+}
+
+#[test]
+fn sides_are_taken_where_the_words_are_certain() {
+    for (words, wanted) in [
+        ("Schrittweite x: 2 µm\nSchrittweite y: 1 µm\n", [2.0, 1.0]),
+        ("Increment (x): 2 um\nIncrement (y): 1 um\n", [2.0, 1.0]),
+        ("Image size: 4 x 3 px, 8 x 3 um\n", [2.0, 1.0]),
+        ("Width: 4 px (8 um)\nHeight: 3 px / 3 um\n", [2.0, 1.0]),
+        ("Pixel size (um): 2.0 1.0\n", [2.0, 1.0]),
+        ("Pixel size: (2.0, 1.0) um\n", [2.0, 1.0]),
+        ("Lateral resolution: 0.4 um\nPixel size: 0.2 um\n", [0.2, 0.2]),
+        ("Lateral resolution: 0.4 um\nX size: 8 um\nY size: 3 um\n", [2.0, 1.0]),
+        ("dx = 2 um\nLine distance = 10 um\n", [2.0, 10.0]),
+        ("Width: 8 um\nDepth: 3 um\nHeight: 5 um\n", [2.0, 1.0]),
+        ("# a: b\n# c: 8 um\n# d: 6 um\n# e: nm\n", [2.0, 2.0]),
+    ] {
+        assert_eq!(pixel(words), Ok(wanted), "{words}");
+    }
+}
+
+#[test]
+fn sides_that_are_not_certain_are_asked_for() {
+    for (words, said) in [
+        // other lengths than sides
+        ("Stage X: 12.5 mm\nStage Y: 7.25 mm\nUnit: um\n", "unit of the heights"),
+        ("Sa: 0.5 um\nSq: 0.6 um\nUnit: um\n", "unit of the heights"),
+        ("# Steel: a\n# Sa: 0.5 um\n# Sq: 0.6 um\n# Unit: um\n", "unit of the heights"),
+        ("X range [um]: 10 to 74\nY range [um]: 5 to 29\n", "line 1 \"X range [um]: 10 to 74\""),
+        ("X range (um)\t10\t74\n", "several numbers"),
+        ("Pitch: 0.08 um\nXY calibration: 2 um\n", "do not agree"),
+        ("Pixel size: 2 um\nWidth: 100 um\nHeight: 75 um\n", "do not agree"),
+        ("Sampling interval: 2 um\nProfile spacing: 10 um\n", "do not agree"),
+        ("dx: -2 um\ndy: 1 um\n", "one side alone"),
+        ("Width: 64 um\n", "one side alone"),
+        ("Length: 64 um\nWidth: 24 um\n", "before the width"),
+        ("Width: 1,024 um\nHeight: 1,200 um\n", "a thousand or a fraction"),
+    ] {
+        let notes = pixel(words).unwrap_err();
+        assert!(notes.contains(said), "{words}: {notes}");
+    }
+    // decimal commas make the comma of the header one too
+    let comma = format!("Breite: 1,024 µm\nHöhe: 1,200 µm\n{}", MAP.replace('.', ","));
+    assert!(
+        matches!(found(&comma).unwrap().spacing, Spacing::Metres([x, _]) if (x - 0.256e-6).abs() < 1e-12)
+    );
+}
+
+#[test]
+fn the_unit_of_heights_is_not_that_of_lengths() {
+    for (words, wanted) in [
+        ("Length unit: mm\nHeight unit: um\n", Some(1e-6)),
+        ("Unit of x: mm\nUnit of y: mm\nUnit of z: um\n", Some(1e-6)),
+        ("Scan unit: mm\nZ-unit: um\n", Some(1e-6)),
+        ("Unit: mm\nZ unit: um\n", Some(1e-6)),
+        ("Horizontal unit: mm\nVertical unit: um\n", Some(1e-6)),
+        ("Unit ID: M\n", None),
+        ("Unità: µm\n", Some(1e-6)),
+        ("Height [nm]\n", Some(1e-9)),
+        ("Heights in nm\n", Some(1e-9)),
+        ("z: um\n", Some(1e-6)),
+    ] {
+        assert_eq!(found(&format!("{PIXEL}{words}{MAP}")).unwrap().height_unit, wanted, "{words}");
+    }
+    let both = found(&format!("Height unit: nm\nData unit: um\n{MAP}")).unwrap_err();
+    assert!(both.contains("line 2") && both.contains("another unit"), "{both}");
+    // units of x and y that differ are no one unit
+    let differ = found(&format!("x-unit: mm\ny-unit: um\nz-unit: um\ndx: 0.002\ndy: 1\n{MAP}")).unwrap();
+    assert_eq!(differ.spacing, Spacing::Numbers([0.002, 1.0]));
+}
+
+#[test]
+fn rows_at_the_edges_do_not_vanish() {
+    let sides = "Width: 8 um\nHeight: 3 um\nUnit: um\n";
+    let map = MAP.replace(' ', ";");
+    for (text, word) in [
+        (format!("{sides};;;\n{map}"), "empty rows"),
+        (format!("{sides}{map};;;\n"), "empty rows"),
+        (format!("{sides}{}", map.replace('\n', ";;\n")), "empty columns"),
+        (format!("{sides};{}", map.trim_end().replace('\n', "\n;") + "\n"), "empty columns"),
+    ] {
+        let found = found(&text).unwrap();
+        assert_eq!(found.spacing, Spacing::Unknown, "{text}");
+        assert!(found.notes.iter().any(|note| note.contains(word)), "{text} {:?}", found.notes);
+    }
+    let tabs = MAP.replace(' ', "\t");
+    let hole = found(&format!("{sides}{}", tabs.replacen('\n', "\n\t\t\t\n", 1))).unwrap();
+    assert_eq!((hole.rows, hole.heights[4].is_nan()), (4, true));
+    let first = found(&format!("{sides}inf -inf 0.2 0.3\n{MAP}")).unwrap();
+    assert_eq!((first.rows, first.heights[0].is_nan()), (4, true));
+    let apart = found(&format!("{sides}1'000.5 1'000.5 7 8\n{MAP}")).unwrap();
+    assert_eq!((apart.rows, apart.heights[0]), (4, 1000.5));
+    for (text, cell) in [
+        (format!("{sides}{MAP}undef 0.1 0.2 0.3\n"), "line 7: \"undef\""),
+        (format!("{sides}1 017,81;1 017,82;0,1;0,2\n{}", map.replace('.', ",")), "line 4: \"1 017,81\""),
+    ] {
+        let refused = found(&text).unwrap_err();
+        assert!(refused.contains(cell), "{refused}");
+    }
+}
+
+#[test]
+fn lists_wrapped_rows_and_two_tables_are_no_map() {
+    let list: String = (0..80).map(|i| format!("{} {} 0.{i} 7\n", i % 9, i / 9)).collect();
+    for (text, word) in [
+        (list, "shape of a list"),
+        (format!("Samps/line: 6\nNumber of lines: 2\n{MAP}"), "line 1: says 6 and 2"),
+        (format!("Matrix: 2 x 6\n{MAP}"), "3 lines of 4"),
+        (format!("{MAP}\n{MAP}"), "2 tables of 3 rows"),
+        (format!("{MAP}# second\n{MAP}"), "2 tables of 3 rows"),
+    ] {
+        let refused = found(&text).unwrap_err();
+        assert!(refused.contains(word), "{refused}");
+    }
+    assert_eq!(found(&MAP.replace('\n', "\n\n")).unwrap().rows, 3);
+    assert_eq!(found(&format!("Lines: 3\nPoints: 4\n{MAP}")).unwrap().rows, 3);
+}
