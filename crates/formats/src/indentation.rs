@@ -226,8 +226,8 @@ fn lone(values: &[f64], has_ends: bool) -> Vec<usize> {
     found
 }
 
-/// Fewest readings of an approach, and the share of the largest force from which a force that stays over all of
-/// them is a baseline: a first touch is found at a smaller one.
+/// Fewest readings of an approach, and the share of the largest force from which a force that stays over all
+/// of them is a baseline: a first touch is found at a smaller one.
 const MIN_APPROACH: usize = 5;
 const BASELINE_SHARE: f64 = 0.03;
 /// Largest change of such a force, over itself.

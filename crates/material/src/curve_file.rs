@@ -25,8 +25,8 @@ pub struct CurveFile {
     pub understood: String,
 }
 
-/// Plastic strains above it are doubted where the file names no unit: metals hardly bear as much, and percent
-/// begin there.
+/// Plastic strains above it are doubted where the file names no unit: hardly a test reaches them, but
+/// percent do.
 const LARGEST_STRAIN: f64 = 5.0;
 
 /// Accumulated plastic strain.

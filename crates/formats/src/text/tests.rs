@@ -388,8 +388,8 @@ fn units_of_inches_and_pounds_are_known_and_no_header_is_answered_with_a_key() {
     assert!(fault.message.contains("1 HV is 9.80665 MPa"), "{fault}");
 }
 
-/// Rises of 30 readings to 1 µm and 60 mN, and half of the way back in 20, after `before`; `change` makes a
-/// line of each.
+/// Rises of 30 readings to 1 µm and 60 mN, and unloading in 20 to half of that, after `before`; `change`
+/// makes a line of each.
 fn curve(head: &str, before: &str, change: impl Fn(usize, f64, f64) -> String) -> String {
     let up = (1..=30).map(|i| f64::from(i) / 30.0).map(|s| [1000.0 * s, 60.0 * s * s]);
     let down = (1..=20).map(|i| f64::from(i) / 40.0).map(|s| [1000.0 - 150.0 * s, 60.0 * (1.0 - s)]);
