@@ -162,7 +162,7 @@ mod tests {
             assert!((points[1][0] - 0.01).abs() < 1e-15, "{text}: {points:?}");
             assert!((points[1][1] / 412.5e6 - 1.0).abs() < 1e-15, "{text}: {points:?}");
         }
-        let percent = CurveFile::parse("plastic strain [%],stress (MPa)\n0%,300\n5 %,400\n").unwrap();
+        let percent = CurveFile::parse("plastic strain [%],stress (MPa)\n0%,300\n5%,400\n").unwrap();
         assert!((percent.points[1][0] - 0.05).abs() < 1e-15, "{percent:?}");
         assert_eq!(
             CurveFile::parse("plastic strain [1],stress (MPa)\n0,300\n6,400").unwrap().points[1][0],
