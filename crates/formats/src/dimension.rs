@@ -55,7 +55,16 @@ impl Dimension {
                 ("м", 1.0),
             ],
             Dimension::Force => {
-                &[("gf", 9.80665e-3), ("kgf", 9.80665), ("kp", 9.80665), ("mgf", 9.80665e-6), ("lbf", POUND)]
+                // the load of a hardness tester in grams is their weight
+                &[
+                    ("g", 9.80665e-3),
+                    ("kg", 9.80665),
+                    ("gf", 9.80665e-3),
+                    ("kgf", 9.80665),
+                    ("kp", 9.80665),
+                    ("mgf", 9.80665e-6),
+                    ("lbf", POUND),
+                ]
             }
             Dimension::Stress => &[
                 ("N/mm2", 1e6),
@@ -66,8 +75,46 @@ impl Dimension {
                 ("kgf/mm2", 9.80665e6),
                 ("kgf/mm²", 9.80665e6),
                 ("kgf/mm^2", 9.80665e6),
+                ("kg/mm2", 9.80665e6),
+                ("kg/mm²", 9.80665e6),
+                ("kg/mm^2", 9.80665e6),
+                // a millipascal is no stress of a metal, so that case tells nothing else
+                ("Mpa", 1e6),
+                ("MPA", 1e6),
+                ("Gpa", 1e9),
+                ("GPA", 1e9),
             ],
-            Dimension::Ratio => &[("%", 0.01), ("1", 1.0), ("mm/mm", 1.0), ("m/m", 1.0), ("-", 1.0)],
+            Dimension::Ratio => &[
+                ("", 1.0),
+                ("1", 1.0),
+                ("-", 1.0),
+                ("mm/mm", 1.0),
+                ("m/m", 1.0),
+                ("in/in", 1.0),
+                ("%", 1e-2),
+                ("percent", 1e-2),
+                ("per cent", 1e-2),
+                ("pct", 1e-2),
+                ("prozent", 1e-2),
+                ("pourcent", 1e-2),
+                ("‰", 1e-3),
+                ("permille", 1e-3),
+                ("per mille", 1e-3),
+                ("promille", 1e-3),
+                ("millistrain", 1e-3),
+                ("mε", 1e-3),
+                ("mm/m", 1e-3),
+                ("microstrain", 1e-6),
+                ("micro strain", 1e-6),
+                ("ustrain", 1e-6),
+                ("µstrain", 1e-6),
+                ("μstrain", 1e-6),
+                ("µε", 1e-6),
+                ("με", 1e-6),
+                ("µm/m", 1e-6),
+                ("μm/m", 1e-6),
+                ("um/m", 1e-6),
+            ],
         }
     }
 
@@ -122,7 +169,7 @@ impl Dimension {
             Dimension::Length => "pm, nm, um, mm, m, in, mil",
             Dimension::Force => "nN, uN, mN, N, kN, gf, kgf, lbf",
             Dimension::Stress => "Pa, kPa, MPa, GPa, N/mm2",
-            Dimension::Ratio => "1, %",
+            Dimension::Ratio => "1, %, permille, microstrain",
         }
     }
 }

@@ -122,6 +122,8 @@ pub fn read_as(
     }
     for test in &table.series {
         refuse_negative(test, &table.names, turned)?;
+        refuse_lone(test, table.scales)?;
+        refuse_baseline(test)?;
     }
     Ok(table)
 }
@@ -154,4 +156,98 @@ fn refuse_negative(test: &Series<2>, names: &[String; 2], turned: [bool; 2]) -> 
         key(1)
     );
     Err(TextError::new(test.lines[at], message))
+}
+
+/// Fewest readings of a test in which one can be told to stand alone.
+const MIN_READINGS: usize = 12;
+/// Size over the range of a test from which a way there and back within a few readings is no reading.
+const LONE_SIZE: f64 = 0.5;
+/// The same where a test begins or ends so: loads that double from reading to reading end far away too.
+const LONE_SIZE_AT_AN_END: f64 = 20.0;
+/// Most readings of different size that stand alone together.
+const MOST_LONE: usize = 3;
+
+/// Refuses a test with readings far from those before and after them: glitches, or marks of missing ones.
+fn refuse_lone(test: &Series<2>, scales: [f64; 2]) -> Result<(), TextError> {
+    for (k, quantity) in [DEPTH, FORCE].iter().enumerate().filter(|_| test.rows.len() >= MIN_READINGS) {
+        let values: Vec<f64> = test.rows.iter().map(|row| row[k] / scales[k]).collect();
+        let lone = lone(&values, *quantity == FORCE);
+        // more of them are a path that the rows do not follow in time
+        let Some(&first) = lone.first().filter(|_| 10 * lone.len() <= values.len()) else { continue };
+        let around = |i: usize| values.get(i).map_or(String::new(), |value| format!(", {value}"));
+        let message = format!(
+            "the {} {} stands alone ({}{}{}): delete such lines, or set missing_value = {} if that means that nothing was read",
+            quantity.name,
+            values[first],
+            first
+                .checked_sub(1)
+                .map_or_else(|| "at the beginning".into(), |i| format!("between {}", values[i])),
+            around(first),
+            around(first + 1),
+            values[first]
+        );
+        return Err(TextError::new(test.lines[first], message));
+    }
+    Ok(())
+}
+
+/// Places in `values` of those that stand alone; `has_ends` where the first and the last may too.
+fn lone(values: &[f64], has_ends: bool) -> Vec<usize> {
+    let mut sorted: Vec<f64> = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let share = |part: f64| sorted[(part * (sorted.len() - 1) as f64) as usize];
+    let [low, high] = [share(0.05), share(0.95)];
+    let range = high - low;
+    let mut found = Vec::new();
+    for i in 1..values.len() - 1 {
+        let (before, sign) = (values[i - 1], (values[i] - values[i - 1]).signum());
+        // a way down and back may be an unloading: only one that leaves all others is doubted
+        let is_far = sign > 0.0 || values[i] < low - LONE_SIZE * range;
+        if !is_far || (values[i] - before).abs() <= LONE_SIZE * range {
+            continue;
+        }
+        let equal = values[i..].iter().take_while(|v| **v == values[i]).count();
+        for count in 1..=equal.max(MOST_LONE) {
+            let Some(after) = values.get(i + count) else { break };
+            let least = values[i..i + count]
+                .iter()
+                .map(|v| (sign * (v - before)).min(sign * (v - after)))
+                .fold(f64::INFINITY, f64::min);
+            if least > LONE_SIZE * range && (after - before).abs() < 0.2 * least {
+                found.push(i);
+                break;
+            }
+        }
+    }
+    let ends = [(0, 1), (values.len() - 1, values.len() - 2)];
+    let is_off =
+        |(end, next): &(usize, usize)| (values[*end] - values[*next]).abs() > LONE_SIZE_AT_AN_END * range;
+    found.extend(ends.iter().filter(|end| has_ends && is_off(end)).map(|(end, _)| *end));
+    found
+}
+
+/// Fewest readings of an approach, and the share of the largest force from which a force that stays over all
+/// of them is a baseline: a first touch is found at a smaller one.
+const MIN_APPROACH: usize = 5;
+const BASELINE_SHARE: f64 = 0.03;
+/// Largest change of such a force, over itself.
+const BASELINE_CHANGE: f64 = 0.3;
+
+/// Refuses a test whose force is not 0 before the tool touches.
+fn refuse_baseline(test: &Series<2>) -> Result<(), TextError> {
+    let most = test.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let approach: Vec<f64> = test.rows.iter().take_while(|row| row[0] < 0.0).map(|row| row[1]).collect();
+    let mean = approach.iter().sum::<f64>() / approach.len().max(1) as f64;
+    let is_flat = approach.iter().all(|force| (force - mean).abs() < 0.5 * BASELINE_CHANGE * mean.abs());
+    if approach.len() < MIN_APPROACH || mean.abs() < BASELINE_SHARE * most || !is_flat {
+        return Ok(());
+    }
+    let message = format!(
+        "the force is {:.4} mN at all {} readings before the depth 0, {:.1} % of the largest one: subtract it from all forces if it is \
+         there without contact, else leave these readings out",
+        1e3 * mean,
+        approach.len(),
+        100.0 * mean / most
+    );
+    Err(TextError::new(test.lines[0], message))
 }

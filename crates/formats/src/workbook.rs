@@ -1,5 +1,7 @@
 //! Sheets of Excel workbooks as text: numbers with all their digits, a tab between columns.
 
+mod percent;
+
 use crate::text::TextError;
 use calamine::{Data, DataRef, DataType, Reader, Xls, Xlsx};
 use std::collections::BTreeMap;
@@ -18,6 +20,25 @@ const CELL_BYTES: u64 = 128;
 const MOST_ROWS: u32 = 1 << 20;
 const MOST_COLUMNS: u32 = 1 << 14;
 
+/// Parts of the names of sheets that hold something else than what was measured along the surface or in time.
+const OTHERS: [&str; 15] = [
+    "intensity",
+    "intensität",
+    "intensite",
+    "reflect",
+    "colour",
+    "color",
+    "image",
+    "laser",
+    "light",
+    "result",
+    "ergebnis",
+    "summary",
+    "statisti",
+    "info",
+    "quality",
+];
+
 /// A sheet: its rows, each with its cells by their columns.
 struct Sheet {
     name: String,
@@ -26,13 +47,19 @@ struct Sheet {
 }
 
 /// Text of the sheet with a table, and its name among those of the file: of several with as many numbers, or
-/// half of them, the first.
+/// half of them, the first whose name is not that of something else.
 pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     let sheets =
         if bytes.starts_with(ARCHIVE) { xlsx(bytes) } else { xls(bytes) }.map_err(TextError::whole)?;
     let most = sheets.iter().map(|sheet| sheet.numbers).max().unwrap_or(0);
-    let found = sheets.iter().find(|sheet| most > 0 && 2 * sheet.numbers >= most);
-    let sheet = found.ok_or_else(|| TextError::whole("is an Excel workbook without a number"))?;
+    let mut full = sheets.iter().filter(|sheet| most > 0 && 2 * sheet.numbers >= most);
+    let is_other = |sheet: &Sheet| {
+        let name = sheet.name.to_lowercase();
+        OTHERS.iter().any(|other| name.contains(other))
+    };
+    let first = full.clone().next();
+    let sheet = full.find(|sheet| !is_other(sheet)).or(first);
+    let sheet = sheet.ok_or_else(|| TextError::whole("is an Excel workbook without a number"))?;
     let columns = sheet.rows.values().flat_map(|row| row.keys());
     let width = columns.max().map_or(0, |last| *last as usize + 1);
     // cells that are empty take a tab each
@@ -48,20 +75,22 @@ impl Sheet {
         Sheet { name, rows: BTreeMap::new(), numbers: 0 }
     }
 
-    fn put(&mut self, place: (u32, u32), cell: &impl DataType) -> Result<(), String> {
+    fn put(&mut self, place: (u32, u32), cell: &impl DataType, is_percent: bool) -> Result<(), String> {
         if place.0 >= MOST_ROWS || place.1 >= MOST_COLUMNS {
             return Err(refused(&format_args!("a cell in row {} and column {}", place.0, place.1)));
         }
-        // dates and times are numbers too, of days
         let number = cell.get_float().or_else(|| cell.get_int().map(|i| i as f64));
-        let number = number.or_else(|| cell.get_datetime().map(|date| date.as_f64()));
+        let date = cell.get_datetime().map(|date| date_of(date.as_f64()));
         let text = match number {
+            // a date is no number, and stands as well before the numbers of a row
+            _ if date.is_some() => date.unwrap_or_default(),
+            Some(number) if is_percent => format!("{:?}%", 100.0 * number),
             Some(number) => format!("{number:?}"),
             None if cell.is_error() => "#N/A".into(),
             None => cell.as_string().unwrap_or_default().replace(['\t', '\n', '\r'], " "),
         };
         if !text.is_empty() {
-            self.numbers += usize::from(number.is_some());
+            self.numbers += usize::from(number.is_some() || is_number(&text));
             self.rows.entry(place.0).or_default().insert(place.1, text);
         }
         Ok(())
@@ -69,7 +98,6 @@ impl Sheet {
 
     /// Rows up to the last column with a number, so that empty cells of a map stay.
     fn text(&self) -> String {
-        let is_number = |cell: &str| cell.parse::<f64>().is_ok();
         let columns = || self.rows.values().flat_map(|row| row.iter());
         let first = columns().map(|(column, _)| *column).min().unwrap_or(0);
         let last =
@@ -95,6 +123,26 @@ impl Sheet {
         out.push('\n');
         out
     }
+}
+
+/// True of a number, of one too that a program stored as text with a point or a comma before decimals.
+fn is_number(cell: &str) -> bool {
+    cell.parse::<f64>().is_ok() || cell.contains(',') && cell.replacen(',', ".", 1).parse::<f64>().is_ok()
+}
+
+/// The day so many days after Excel's day 0, as ISO 8601 writes it. By Howard Hinnant's count of days in eras
+/// of 400 years that begin in March.
+fn date_of(days: f64) -> String {
+    // 1899-12-30 is that many days after 0000-03-01
+    const DAY_0: i64 = 693_899;
+    let day = days.floor().clamp(-6e5, 1e7) as i64 + DAY_0;
+    let (era, of_era) = (day.div_euclid(146_097), day.rem_euclid(146_097));
+    let year = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
+    let of_year = of_era - (365 * year + year / 4 - year / 100);
+    let month = (5 * of_year + 2) / 153;
+    let day = of_year - (153 * month + 2) / 5 + 1;
+    let (year, month) = (year + 400 * era + i64::from(month >= 10), (month + 2) % 12 + 1);
+    format!("{year:04}-{month:02}-{day:02}")
 }
 
 fn refused(error: &dyn std::fmt::Display) -> String {
@@ -123,16 +171,20 @@ fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
             return Err(too_many());
         }
     }
+    let percent = percent::cells(&mut archive);
     let mut book = Xlsx::new(Cursor::new(bytes)).map_err(|e| refused(&e))?;
     let mut sheets = Vec::new();
     let mut held = 0;
     for name in book.sheet_names() {
         let mut sheet = Sheet::new(name.clone());
+        let shown = percent.get(&name).filter(|cells| !cells.is_empty());
         // a sheet that is a chart has no cells
         let Ok(mut cells) = book.worksheet_cells_reader(&name) else { continue };
         while let Some(cell) = cells.next_cell().map_err(|e| refused(&e))? {
             if !matches!(cell.get_value(), DataRef::Empty) {
-                sheet.put(cell.get_position(), cell.get_value())?;
+                let (row, column) = cell.get_position();
+                let is_percent = shown.is_some_and(|cells| cells.contains(&percent::name_of(row, column)));
+                sheet.put((row, column), cell.get_value(), is_percent)?;
                 held += 1;
             }
             if held > most_cells() {
@@ -165,7 +217,7 @@ fn xls_sheets(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
         let (row, column) = range.start().unwrap_or((0, 0));
         for (down, across, cell) in range.used_cells() {
             if *cell != Data::Empty {
-                sheet.put((row + down as u32, column + across as u32), cell)?;
+                sheet.put((row + down as u32, column + across as u32), cell, false)?;
             }
         }
         sheets.push(sheet);
@@ -221,4 +273,63 @@ fn check_places(bytes: &[u8]) -> Result<(), String> {
         }
     }
     if held + rows * COLUMNS > most_cells() as u64 { Err(too_many()) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    /// A workbook of Office Open XML (ECMA-376) with these sheets; style 1 shows percent, style 2 a date.
+    fn book(sheets: &[(&str, &str)]) -> Vec<u8> {
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let mut member = |name: &str, text: &str| {
+            archive.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+            archive.write_all(text.as_bytes()).unwrap();
+        };
+        let main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
+        let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+        let (mut list, mut links) = (String::new(), String::new());
+        for (i, (name, cells)) in sheets.iter().enumerate() {
+            list += &format!(r#"<sheet name="{name}" sheetId="{}" r:id="r{i}"/>"#, i + 1);
+            links += &format!(
+                r#"<Relationship Id="r{i}" Type="{office}/worksheet" Target="worksheets/s{i}.xml"/>"#
+            );
+            let sheet = format!(r#"<worksheet xmlns="{main}"><sheetData>{cells}</sheetData></worksheet>"#);
+            member(&format!("xl/worksheets/s{i}.xml"), &sheet);
+        }
+        let book =
+            format!(r#"<workbook xmlns="{main}" xmlns:r="{office}"><sheets>{list}</sheets></workbook>"#);
+        member("xl/workbook.xml", &book);
+        let package = "http://schemas.openxmlformats.org/package/2006/relationships";
+        let links = format!(r#"<Relationships xmlns="{package}">{links}</Relationships>"#);
+        member("xl/_rels/workbook.xml.rels", &links);
+        let styles = r#"<xf numFmtId="0"/><xf numFmtId="164"/><xf numFmtId="14"/>"#;
+        let format = r#"<numFmts><numFmt numFmtId="164" formatCode="0.0%"/></numFmts>"#;
+        let styles =
+            format!(r#"<styleSheet xmlns="{main}">{format}<cellXfs>{styles}</cellXfs></styleSheet>"#);
+        member("xl/styles.xml", &styles);
+        archive.finish().unwrap().into_inner()
+    }
+
+    #[test]
+    fn what_a_cell_shows_counts_and_the_sheet_of_what_was_measured() {
+        let row = |cells: &str| format!(r#"<row r="1">{cells}</row>"#);
+        let number =
+            |place: &str, style: u8, value: &str| format!(r#"<c r="{place}" s="{style}"><v>{value}</v></c>"#);
+        let percent = row(&(number("A1", 1, "0.05") + &number("B1", 0, "300")));
+        // 2023-03-15 is day 45000 of Excel
+        let date = row(&(number("A1", 2, "45000") + &number("B1", 0, "300")));
+        let words = row(r#"<c r="A1" t="str"><v>0,25</v></c><c r="B1" t="str"><v>1.5</v></c>"#);
+        for (sheets, want) in [
+            (&[("a", percent.as_str())][..], "5.0%\t300.0\n"),
+            (&[("a", date.as_str())], "2023-03-15\t300.0\n"),
+            (&[("a", words.as_str())], "0,25\t1.5\n"),
+            (&[("Intensity", date.as_str()), ("Height", percent.as_str())], "5.0%\t300.0\n"),
+            (&[("Results", percent.as_str())], "5.0%\t300.0\n"),
+        ] {
+            assert_eq!(text(&book(sheets)).unwrap().0, want, "{sheets:?}");
+        }
+        assert_eq!([0.5, 60.0, 61.0].map(date_of), ["1899-12-30", "1900-02-28", "1900-03-01"]);
+    }
 }

@@ -25,6 +25,10 @@ pub struct CurveFile {
     pub understood: String,
 }
 
+/// Plastic strains above it are doubted where the file names no unit: hardly a test reaches them, but
+/// percent do.
+const LARGEST_STRAIN: f64 = 5.0;
+
 /// Accumulated plastic strain.
 const STRAIN: Quantity = Quantity {
     name: "plastic strain",
@@ -88,6 +92,17 @@ impl CurveFile {
         if let Some(second) = table.series.first() {
             return Err(TextError::new(second.lines[0], "begins a second curve: keep one in a file"));
         }
+        let largest = points.iter().zip(&lines).find(|(p, _)| p[0] > LARGEST_STRAIN && !table.have_units[0]);
+        if let Some((p, line)) = largest {
+            let message = format!(
+                "is a plastic strain of {}, {} %, if \"{}\" has no unit: write plastic_strain_% above percent, and plastic_strain [1] \
+                 above true strains as large as that",
+                p[0],
+                100.0 * p[0],
+                table.names[0]
+            );
+            return Err(TextError::new(*line, message));
+        }
         // in the unit of the file, so that the sentence says what the reader sees
         let shown: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1] / table.scales[1]]).collect();
         HardeningTable::new(&shown)
@@ -118,6 +133,55 @@ mod tests {
             assert_eq!(file.points.len(), 2);
         }
         assert_eq!(CurveFile::parse("plastic_strain,yield_stress_Pa\n#\n0,3e8").unwrap().lines, [3]);
+    }
+
+    /// Heads as people and testing machines write them, each with the factor of its unit.
+    #[test]
+    fn a_strain_is_read_in_its_unit_wherever_that_stands() {
+        for (head, factor) in [
+            ("plastic strain %,stress MPa", 1e2),
+            ("plastic strain%,stress (Mpa)", 1e2),
+            ("plastic_strain_percent,yield_stress_MPa", 1e2),
+            ("Plastic strain, percent\tTrue stress, MPa", 1e2),
+            ("plastic_strain_pct,yield_stress_MPa", 1e2),
+            ("plastic_strain_%,STRESS (MPA)", 1e2),
+            ("Plastische Dehnung in %,Spannung in MPa", 1e2),
+            ("plastic strain [percent],true von Mises stress [MPa]", 1e2),
+            ("plastic strain,true stress\n%,MPa", 1e2),
+            ("plastic strain ‰,stress MPa", 1e3),
+            ("plastic strain microstrain,stress MPa", 1e6),
+            ("log. plastic strain (µm/m),stress MPa", 1e6),
+            ("accumulated plastic strain (in/in),stress (MPa)", 1.0),
+            ("plastic strain (),engineering stress (MPa),true stress (MPa)", 1.0),
+        ] {
+            let mark = if head.contains('\t') { '\t' } else { ',' };
+            let engineers = if head.contains("engineering") { ",270" } else { "" };
+            let row = |strain: f64, stress: f64| format!("{}{engineers}{mark}{stress}\n", strain * factor);
+            let text = format!("{head}\n{}{}", row(0.0, 300.0), row(0.01, 412.5));
+            let points = CurveFile::parse(&text).unwrap_or_else(|e| panic!("{text}: {e}")).points;
+            assert!((points[1][0] - 0.01).abs() < 1e-15, "{text}: {points:?}");
+            assert!((points[1][1] / 412.5e6 - 1.0).abs() < 1e-15, "{text}: {points:?}");
+        }
+        let percent = CurveFile::parse("plastic strain [%],stress (MPa)\n0%,300\n5%,400\n").unwrap();
+        assert!((percent.points[1][0] - 0.05).abs() < 1e-15, "{percent:?}");
+        assert_eq!(
+            CurveFile::parse("plastic strain [1],stress (MPa)\n0,300\n6,400").unwrap().points[1][0],
+            6.0
+        );
+        for (text, words) in [
+            ("plastic strain furlong,stress MPa\n0,300\n1,360", "\"furlong\""),
+            ("% plastic strain,stress MPa\n0,300\n1,360", ""),
+            ("stress MPa,% plastic strain\n300,0\n360,1", "\"%\""),
+            ("plastic strain,stress MPa\n0,300\n20,360", "plastic_strain_%"),
+            ("plastic strain,engineering stress (MPa)\n0,300\n1,360", "σ (1 + ε)"),
+            ("plastic strain,nominal stress [MPa]\n0,300\n1,360", "σ (1 + ε)"),
+            ("engineering plastic strain,true stress [MPa]\n0,300\n1,360", "ln(1 + ε)"),
+            ("plastic strain,shear stress (MPa)\n0,300\n1,360", "\"shear\""),
+            ("plastic strain,stress x 10 (MPa)\n0,300\n1,360", "\"x 10\""),
+        ] {
+            let error = CurveFile::parse(text).unwrap_err();
+            assert!(error.message.contains(words), "{text}: {error}");
+        }
     }
 
     #[test]

@@ -33,6 +33,13 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     let ColorType::Gray(bits @ (16 | 32 | 64)) = color else {
         return Err(FORMAT.header("kind of points", format_args!("{color:?}"), NO_HEIGHTS));
     };
+    if decoder.get_tag_u32(Tag::PhotometricInterpretation).is_ok_and(|shown| shown == 0) {
+        return Err(FORMAT.header(
+            "photometric interpretation",
+            "MinIsWhite",
+            "it turns grey levels about, and nothing tells whether the heights are turned too: export MinIsBlack",
+        ));
+    }
     let bytes = usize::from(bits / 8);
     let count = FORMAT.nodes_within(columns.into(), rows.into(), bytes, request)?;
     let (promised, most) = ((count * bytes) as u64, length * MOST_UNPACKED);
@@ -77,7 +84,8 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 const LONGEST_TAG: usize = 1 << 20;
 const NO_HEIGHTS: &str = "heights are floating-point numbers, one to a point: grey levels and colours are none; export 32-bit floats, .sur or .x3p";
 
-/// The words of ImageJ: the unit of places, with pixels per unit, and of values.
+/// The words of ImageJ: the unit of places, with pixels per unit, and of values. `vunit` is that of values;
+/// `zunit`, that of the distance of slices, stands for it in files without it.
 fn units(decoder: &mut Decoder<Cursor<Vec<u8>>>, description: &str) -> (Spacing, Option<f64>) {
     if !description.starts_with("ImageJ") {
         return (Spacing::Unknown, None);
@@ -98,5 +106,5 @@ fn units(decoder: &mut Decoder<Cursor<Vec<u8>>>, description: &str) -> (Spacing,
         (Some((x, y)), Some(unit), of_y) => Spacing::Metres([x * unit, y * of_y.unwrap_or(unit)]),
         _ => Spacing::Unknown,
     };
-    (spacing, scale("zunit").or_else(|| scale("vunit")))
+    (spacing, scale("vunit").or_else(|| scale("zunit")))
 }

@@ -64,6 +64,7 @@ fn first_word(line: &str) -> &str {
 /// A number by its characters alone, whichever mark stands before its decimals.
 pub(super) fn looks_like_number(word: &str) -> bool {
     let word = word.trim_matches('"');
+    let word = word.strip_suffix('%').unwrap_or(word);
     word.contains(|c: char| c.is_ascii_digit())
         && word.chars().all(|c| c.is_ascii_digit() || "+-−.,eEdD'’ \u{a0}\u{202f}".contains(c))
         && !word.starts_with(['e', 'E', 'd', 'D'])
@@ -104,10 +105,12 @@ impl Dialect {
     /// A number like `1,234`, where nothing in the file says whether its comma stands before decimals; commas
     /// that stand both between columns and before decimals.
     pub fn detect(text: &str, asked: Option<Decimal>, has_key: bool) -> Result<Dialect, TextError> {
-        let rows = || {
-            let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
-            lines.filter(|(_, line)| !is_comment(line) && is_row(line))
-        };
+        let lines = || text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+        let has_rows = lines().any(|(_, line)| !is_comment(line) && is_row(line));
+        // where every row begins with a word or a time of day, the rest of a line tells
+        let is_rest =
+            |line: &str| !has_rows && line.split_once(['\t', ';']).is_some_and(|(_, rest)| is_row(rest));
+        let rows = || lines().filter(|(_, line)| !is_comment(line) && (is_row(line) || is_rest(line)));
         let looked_at: Vec<(usize, &str)> = rows().take(ROWS_LOOKED_AT).collect();
         let separator = match looked_at[..] {
             [] => ['\t', ';', ',']
@@ -233,11 +236,15 @@ impl Dialect {
         if cell.contains(other) && !has_thousands(cell, mark, other) {
             return None;
         }
+        // a blank parts nothing else in a cell: decimals need not tell
+        let has_groups = cell.contains(' ')
+            && (has_thousands(cell, mark, ' ') || has_thousands(&format!("{cell}{mark}0"), mark, ' '));
         let mut plain = String::with_capacity(cell.len());
         for c in cell.chars() {
             match c {
                 _ if c == mark => plain.push('.'),
                 _ if c == other => {}
+                ' ' if has_groups => {}
                 '−' => plain.push('-'),
                 '\u{a0}' | '\u{202f}' | '\'' | '’' => {}
                 'd' | 'D' => plain.push('e'),
@@ -252,6 +259,9 @@ impl Dialect {
     pub fn refuse(&self, cell: &str) -> String {
         let cell = shortened(cell);
         match self.decimal {
+            _ if is_date(&cell) => format!(
+                "\"{cell}\" is a date, not a number: programs of tables make dates of numbers like 3.15; import the numbers anew as text or in columns of numbers"
+            ),
             Decimal::Point if cell.contains(',') => {
                 format!("\"{cell}\" is not a number: in this file decimals stand behind a point, not a comma")
             }
@@ -273,6 +283,13 @@ impl Dialect {
         let decimal = if self.decimal == Decimal::Comma { " and decimal commas" } else { "" };
         format!("{separator} between columns{decimal}")
     }
+}
+
+/// True of a day as ISO 8601 writes it.
+fn is_date(cell: &str) -> bool {
+    let parts: Vec<&str> = cell.split('-').collect();
+    let lengths: Vec<usize> = parts.iter().map(|part| part.len()).collect();
+    lengths == [4, 2, 2] && parts.iter().all(|part| part.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// True where the commas of a number stand before decimals; `None` where they may be those of a thousand too.

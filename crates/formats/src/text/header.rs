@@ -67,6 +67,8 @@ pub(crate) struct Columns<const N: usize> {
     pub test: Option<usize>,
     /// Names of the columns as a key takes them.
     pub names: [String; N],
+    /// True of those of the first test whose unit is given.
+    pub have_units: [bool; N],
     /// Interpretation of the header, in words.
     pub said: String,
 }
@@ -169,6 +171,11 @@ impl<'t> Header<'t> {
                 None => self.usual_columns(&heads, quantity, wanted, &scale)?,
             };
             let head = &heads[picks[0].column];
+            let is_number = named.columns[i].is_some_and(|name| column_number(name).is_some());
+            if let Some(doubt) = head.doubt(quantity).filter(|_| !is_number) {
+                let message = format!("the {} \"{}\" {doubt}", quantity.name, shortened(&head.text));
+                return Err(TextError::new(self.line, message));
+            }
             let unit = head.unit.as_deref().filter(|unit| !head.text.contains(unit));
             said.push(format!(
                 "{} from {}{}",
@@ -196,6 +203,7 @@ impl<'t> Header<'t> {
                 Some(name) => name.into(),
                 None => heads[found[i][0].column].text.clone(),
             }),
+            have_units: std::array::from_fn(|i| heads[found[i][0].column].unit.is_some()),
             test: heads.iter().position(|head| TESTS.contains(&head.name.as_str())),
             said: said.join(", "),
         })

@@ -28,10 +28,89 @@ pub(super) struct Heading {
 
 /// Added to the rank of a name that says that it is not corrected.
 const RANK_OF_RAW: u8 = 10;
+/// Added to the rank of a name that is refused where no other column has the quantity.
+const RANK_OF_DOUBT: u8 = 20;
+
+/// Words of a stress or a strain that change nothing of it: a name with others is not taken, for they may be
+/// a unit, or make another quantity of it.
+const HARMLESS: [&str; 46] = [
+    "true",
+    "cauchy",
+    "real",
+    "yield",
+    "flow",
+    "equivalent",
+    "eq",
+    "effective",
+    "eff",
+    "von",
+    "mises",
+    "vonmises",
+    "log",
+    "logarithmic",
+    "hencky",
+    "plastic",
+    "pl",
+    "p",
+    "accumulated",
+    "cumulative",
+    "cumulated",
+    "total",
+    "uniaxial",
+    "axial",
+    "tensile",
+    "compressive",
+    "compression",
+    "tension",
+    "mean",
+    "average",
+    "avg",
+    "measured",
+    "peeq",
+    "eps",
+    "epsilon",
+    "ε",
+    "εp",
+    "ep",
+    "e",
+    "sigma",
+    "σ",
+    "σy",
+    "sy",
+    "kf",
+    "abs",
+    "absolute",
+];
+/// Words of the force over the area before the test and of the growth over the length before it.
+const OF_ENGINEERS: [&str; 14] = [
+    "engineering",
+    "eng",
+    "engr",
+    "nominal",
+    "nominell",
+    "nominelle",
+    "technische",
+    "technisch",
+    "conventionnelle",
+    "nominale",
+    "ingenieur",
+    "ingegneristica",
+    "ingenieril",
+    "1st",
+];
+
+/// Words that make a function of a depth or a force; strains are logarithmic.
+const FUNCTIONS: [&str; 9] = ["sqrt", "√", "squared", "ln", "lg", "log10", "delta", "δ", "inverse"];
 
 /// True where a text is the unit of something.
 pub(super) fn is_unit(text: &str) -> bool {
-    [Dimension::Length, Dimension::Force, Dimension::Stress].iter().any(|d| d.scale(text).is_some())
+    let is_of = |dimension: &Dimension| dimension.scale(text).is_some();
+    [Dimension::Length, Dimension::Force, Dimension::Stress].iter().any(is_of) || is_unit_of_ratio(text)
+}
+
+/// True of a unit of ratios that is more than a number or a dash.
+fn is_unit_of_ratio(text: &str) -> bool {
+    Dimension::Ratio.scale(text).is_some() && text.contains(|c: char| c.is_alphabetic() || "%‰".contains(c))
 }
 
 /// Small letters without accents, words apart by single blanks.
@@ -80,14 +159,72 @@ impl Heading {
 
     /// Rank of the name as one of `quantity`: 0 best.
     pub fn rank(&self, quantity: &Quantity) -> Option<u8> {
-        let rank = self.bare_rank(quantity)?;
+        let doubt = self.doubt(quantity).map_or(0, |_| RANK_OF_DOUBT);
+        let rank = self.bare_rank(quantity)? + doubt;
         let has = |words: &[&str]| self.name.split(' ').any(|word| words.contains(&word));
         // as it came from the gauge, with the frame and the way to the surface in it
         if has(&["raw", "uncorrected", "unkorrigiert", "roh", "brut"]) {
             return Some(rank + RANK_OF_RAW);
         }
         let ends = ["into surface", "on sample", "corrected", "korrigiert"];
-        Some(if ends.iter().any(|end| self.name.ends_with(end)) { 0 } else { rank })
+        Some(if doubt == 0 && ends.iter().any(|end| self.name.ends_with(end)) { 0 } else { rank })
+    }
+
+    /// The reason why the name is not taken for `quantity` as it stands, with a way out.
+    pub fn doubt(&self, quantity: &Quantity) -> Option<String> {
+        if let Some(factor) = self.factor() {
+            return Some(format!(
+                "names a factor, \"{factor}\": write the numbers without it, and leave it out of the name"
+            ));
+        }
+        let is_log =
+            |word: &str| word == "log" && matches!(quantity.dimension, Dimension::Length | Dimension::Force);
+        if let Some(of) = self.name.split(' ').find(|word| FUNCTIONS.contains(word) || is_log(word)) {
+            return Some(format!(
+                "names a function, \"{of}\", of what is wanted: write the quantity itself, like {}",
+                quantity.example
+            ));
+        }
+        if !matches!(quantity.dimension, Dimension::Ratio | Dimension::Stress)
+            || quantity.called.contains(&self.name.as_str())
+        {
+            return None;
+        }
+        let words = || self.name.split(' ').map(|word| word.trim_matches('.'));
+        if words().any(|word| OF_ENGINEERS.contains(&word)) {
+            let way = "true stress is σ (1 + ε), true strain ln(1 + ε), plastic strain the true one less true stress over Young's modulus";
+            return Some(format!("counts over the sizes before the test, but true values are wanted: {way}"));
+        }
+        let is_known = |word: &&str| {
+            HARMLESS.contains(word)
+                || quantity.called.iter().any(|called| called.split(' ').any(|c| c == *word))
+        };
+        let unknown: Vec<&str> = words().filter(|word| !is_known(word)).collect();
+        let unknown = (!unknown.is_empty()).then(|| unknown.join(" "))?;
+        Some(format!(
+            "has words that may be a unit or make it another quantity, \"{unknown}\": call it {} if it is that, a unit behind it in brackets",
+            quantity.example
+        ))
+    }
+
+    /// A factor in the name: `x 10` of "Load x 10 (mN)".
+    fn factor(&self) -> Option<String> {
+        let outside = self.text.split(['(', '[', '{']).next()?.to_lowercase();
+        let words: Vec<&str> = outside.split_whitespace().collect();
+        let is_digit = |c: char| c.is_ascii_digit();
+        let starts = |word: &str| word.starts_with(is_digit);
+        let signs = ['x', '×', '*', '·'];
+        let is_factor = |i: usize| {
+            let word = words[i];
+            let after = words.get(i + 1).is_some_and(|next| starts(next));
+            word.len() <= 2 && word.starts_with(signs) && word.chars().count() == 1 && after
+                || word.strip_prefix(signs).is_some_and(starts)
+                || word.strip_suffix(['x', '×']).is_some_and(|n| !n.is_empty() && n.chars().all(is_digit))
+                || word.contains("10^")
+                || word.contains("10**")
+        };
+        let place = (1..words.len()).find(|i| is_factor(*i))?;
+        Some(words[place..].join(" "))
     }
 
     /// The rank of the name, whatever it says of corrections.
@@ -110,7 +247,14 @@ impl Heading {
         ];
         /// Names that other quantities have too: a simulation calls what its contact law lets overlap so.
         const WEAK: [&str; 1] = ["penetration"];
+        /// Depths that are computed from a curve.
+        const COMPUTED: [&str; 4] =
+            ["contact depth", "plastic depth", "residual depth", "contact displacement"];
         let name = self.name.as_str();
+        let is_computed = COMPUTED.iter().any(|other| name.starts_with(other) || name.ends_with(other));
+        if is_computed && quantity.dimension == Dimension::Length {
+            return None;
+        }
         if quantity.called.contains(&name) {
             return Some(u8::from(WEAK.contains(&name)));
         }
@@ -143,7 +287,7 @@ fn parts(text: &str) -> (String, Option<String>) {
     // the longest end that is a unit: micro_N before N
     let marks = text.char_indices().filter(|(_, c)| [' ', '_', '/', ',', '-', '|'].contains(c));
     let unit = marks.map(|(i, c)| (&text[..i], &text[i + c.len_utf8()..])).find(|(_, unit)| is_unit(unit));
-    match unit {
+    match unit.or_else(|| Some(text.split_at(text.find(['%', '‰']).filter(|i| *i > 0)?))) {
         Some((name, unit)) => (name.into(), Some(unit.into())),
         None => (text.into(), None),
     }

@@ -4,6 +4,7 @@ use super::dialect::{Dialect, Separator, is_comment, is_row};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit};
 use super::{TextError, shortened};
+use crate::dimension::Dimension;
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,8 @@ pub struct SeriesTable<const N: usize> {
     pub scales: [f64; N],
     /// Names of these columns as a key takes them.
     pub names: [String; N],
+    /// True of those of them that have a unit in the file.
+    pub have_units: [bool; N],
     /// Its interpretation, in one sentence.
     pub understood: String,
 }
@@ -84,6 +87,7 @@ struct Reader<'q, 't, const N: usize> {
     said: String,
     scales: [f64; N],
     names: [String; N],
+    have_units: [bool; N],
 }
 
 /// Reads the columns `wanted` of `text`.
@@ -109,6 +113,7 @@ pub fn read_series<const N: usize>(
         said,
         scales: [1.0; N],
         names: std::array::from_fn(|_| String::new()),
+        have_units: [false; N],
     };
     for (i, line) in text.lines().enumerate() {
         reader.take(i + 1, line)?;
@@ -123,7 +128,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         if bare.is_empty() {
             return Ok(());
         }
-        if is_comment(bare) {
+        if is_comment(bare) && !self.are_units(bare) {
             let content = bare.trim_start_matches(['#', '%', '/', ' ']);
             // a header behind the sign of a comment, as NumPy writes it
             if self.series.is_empty()
@@ -166,6 +171,15 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             return Ok(());
         }
         self.row(line, text)
+    }
+
+    /// True of a line below a header that holds units alone: "%;MPa" is no comment.
+    fn are_units(&self, line: &str) -> bool {
+        let waits = self.block.as_ref().is_some_and(|b| b.columns.is_none() && b.header.units.is_none());
+        let cells = header_cells(&self.dialect, line, None);
+        waits
+            && cells.len() > 1
+            && cells.iter().all(|cell| is_unit(cell) || ["", "-", "1"].contains(&&**cell))
     }
 
     /// True of a line behind the table: words end it, and numbers below those are no readings.
@@ -253,6 +267,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         if self.said.is_empty() {
             self.said.clone_from(&columns.said);
             self.names.clone_from(&columns.names);
+            self.have_units = columns.have_units;
             self.scales = columns.picks[0].map(|pick| pick.scale.unwrap_or(1.0));
         }
         let has_plain_rows = has_plain_rows || is_row(text.trim());
@@ -269,7 +284,16 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
     ) -> Result<Option<[f64; N]>, TextError> {
         let cells = picks.map(|pick| row.get(pick.column).copied().unwrap_or(""));
         let measured = |v: f64| if Some(v) == self.named.missing { f64::NAN } else { v };
-        let values = cells.map(|cell| self.dialect.number(cell).map(measured));
+        let number = |i: usize| {
+            // a cell that says percent is that, whatever stands above it
+            match cells[i].strip_suffix('%').filter(|_| self.wanted[i].dimension == Dimension::Ratio) {
+                Some(percent) => {
+                    Some(self.dialect.number(percent.trim())? * 0.01 / picks[i].scale.unwrap_or(1.0))
+                }
+                None => self.dialect.number(cells[i]),
+            }
+        };
+        let values: [Option<f64>; N] = std::array::from_fn(|i| number(i).map(measured));
         let count = values.iter().flatten().filter(|v| !v.is_nan()).count();
         if count == N {
             let si = |i: usize| values[i].unwrap_or(f64::NAN) * picks[i].scale.unwrap_or(1.0);
@@ -307,7 +331,8 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             last.lines[last.lines.len() - 1],
             if self.skipped > 0 { format!(", {} others left out", self.skipped) } else { String::new() }
         );
-        Ok(SeriesTable { series: self.series, scales: self.scales, names: self.names, understood })
+        let (scales, names, have_units) = (self.scales, self.names, self.have_units);
+        Ok(SeriesTable { series: self.series, scales, names, have_units, understood })
     }
 
     /// The number of largest size in each column of the rows, as it is written.

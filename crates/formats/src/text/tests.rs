@@ -55,6 +55,11 @@ fn curves_of_many_makers_are_read() {
         "depth_nm\tforce_uN\n100.0\t2,000.0\n200.0\t8,000.0\n",
         "depth_nm;force_uN\n100,0;2.000,0\n200,0;8.000,0\n",
         "depth_nm;force_uN\n100,0;2\u{a0}000,0\n200,0;8\u{202f}000,0\n",
+        "depth_nm;force_uN\n100;2 000.0\n200;8 000.0\n",
+        // rows that begin with words or times
+        "Segment\tDepth (nm)\tLoad (mN)\nLoad\t100,0\t2,0\nHold\t200,0\t8,0\n",
+        "Uhrzeit;Tiefe (nm);Kraft (mN)\n12:00:00,00;100,0;2,0\n12:00:00,10;200,0;8,0\n",
+        "Load (g),Depth (um)\n0.203943242595586,0.1\n0.815772970382343,0.2\n",
         // words and numbers that mean that nothing was read
         "depth_nm,force_mN\n100,2\n150,N/A\n-1.#IND,3\n160,1e38\n170,-9999\n200,8\n",
         "h_nm P_mN\n100 2\nNo Data No Data\n150 ***\n200 8\n",
@@ -381,4 +386,66 @@ fn units_of_inches_and_pounds_are_known_and_no_header_is_answered_with_a_key() {
     assert!(fault.message.contains("columns = { depth = \"1 [um]\", force = \"2 [mN]\" }"), "{fault}");
     let fault = indentation::read("Depth (nm),Force (HV)\n1,2\n", COLUMNS, None).unwrap_err();
     assert!(fault.message.contains("1 HV is 9.80665 MPa"), "{fault}");
+}
+
+/// Rises of 30 readings to 1 µm and 60 mN, and unloading in 20 to half of that, after `before`; `change`
+/// makes a line of each.
+fn curve(head: &str, before: &str, change: impl Fn(usize, f64, f64) -> String) -> String {
+    let up = (1..=30).map(|i| f64::from(i) / 30.0).map(|s| [1000.0 * s, 60.0 * s * s]);
+    let down = (1..=20).map(|i| f64::from(i) / 40.0).map(|s| [1000.0 - 150.0 * s, 60.0 * (1.0 - s)]);
+    let rows: String = up.chain(down).enumerate().map(|(i, [h, f])| change(i, h, f)).collect();
+    format!("{head}\n{before}{rows}")
+}
+
+/// A mark of a missing reading, a spark in the wiring, a gauge that was not set to zero, a scale in the head,
+/// a depth that is computed: what makes another metal of a curve without a word.
+#[test]
+fn readings_that_are_none_are_not_taken() {
+    let head = "Depth (nm)\tLoad (mN)";
+    let plain = |_: usize, h: f64, f: f64| format!("{h}\t{f}\n");
+    let at = |places: &'static [usize], odd: &'static str| {
+        move |i: usize, h: f64, f: f64| if places.contains(&i) { format!("{odd}\n") } else { plain(i, h, f) }
+    };
+    let approach = |force: f64| (1..20).map(|i| format!("{}\t{force}\n", i - 20)).collect::<String>();
+    for (text, words) in [
+        (curve(head, "", at(&[20], "99999\t99999")), "missing_value = 99999"),
+        (curve(head, "", at(&[5, 6, 7, 8, 20], "9999\t9999")), "missing_value = 9999"),
+        (curve(head, "", at(&[20], "-9999\t-9999")), "missing_value = -9999"),
+        (curve(head, "", at(&[20], "700\t999")), "the force 999 stands alone"),
+        (curve(head, "", at(&[49], "925\t9999")), "the force 9999 stands alone"),
+        (curve(head, &approach(3.0), plain), "3.0000 mN at all 19 readings"),
+        (curve("Depth (nm)\tLoad x 10 (mN)", "", plain), "\"x 10\""),
+        (curve("Depth (nm)\tsqrt Load (mN)", "", plain), "\"sqrt\""),
+        (curve("Depth (nm)\tlog Load (mN)", "", plain), "\"log\""),
+        (curve("Contact Depth (nm)\tLoad (mN)", "", plain), "\"Contact Depth (nm)\""),
+    ] {
+        let fault = indentation::read(&text, COLUMNS, None).unwrap_err();
+        assert!(fault.message.contains(words), "{text} {fault}");
+    }
+    let inner_cycle = |i: usize, h: f64, f: f64| {
+        if i == 20 { format!("{h}\t{f}\n{}\t1\n{h}\t{f}\n", h - 50.0) } else { plain(i, h, f) }
+    };
+    for (text, rows) in [
+        (curve(head, "", plain), 50),
+        (curve(head, "", inner_cycle), 52),
+        (curve(head, &approach(0.01), plain), 69),
+        (
+            curve("Contact depth (nm)\tDepth (nm)\tLoad (mN)", "", |i, h, f| {
+                format!("1\t{}", plain(i, h, f))
+            }),
+            50,
+        ),
+        // loads that double
+        (
+            curve(head, "", |i, _, _| {
+                format!("{}\t{}\n", 2.0_f64.powi(i as i32 / 2), 2.0_f64.powi(i as i32))
+            }),
+            50,
+        ),
+    ] {
+        let table = indentation::read(&text, COLUMNS, None).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!(table.series[0].rows.len(), rows, "{text}");
+    }
+    let marked = curve(head, "", at(&[20], "99999\t99999"));
+    assert_eq!(indentation::read(&marked, COLUMNS, Some(99999.0)).unwrap().series[0].rows.len(), 49);
 }

@@ -72,6 +72,13 @@ fn a_tiff_is_refused_unless_it_holds_heights() {
     let folder = Folder::new();
     let map = read_plain(&folder.file("a.tif", include_bytes!("data/tifffile-nodata.tif"))).unwrap();
     assert!(map.heights[6].is_nan() && map.heights.iter().filter(|z| z.is_nan()).count() == 1);
+    // the same with MinIsWhite, 0, for MinIsBlack, 1, as its photometric interpretation
+    let mut turned = include_bytes!("data/tifffile-nodata.tif").to_vec();
+    let entry = [6, 1, 3, 0, 1, 0, 0, 0, 1, 0];
+    let place = turned.windows(entry.len()).position(|bytes| bytes == entry).unwrap();
+    turned[place + 8] = 0;
+    let fault = read_plain(&folder.file("a.tif", &turned)).unwrap_err().to_string();
+    assert!(fault.contains("MinIsWhite") && fault.contains("export MinIsBlack"), "{fault}");
     let grey = read_plain(&folder.file("a.tif", include_bytes!("data/tifffile-u16.tif"))).unwrap_err();
     assert!(grey.to_string().contains("grey levels"), "{grey}");
 }
