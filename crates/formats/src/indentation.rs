@@ -121,8 +121,8 @@ pub fn read_as(
         table.understood += &format!("; the sign of the {} turned", quantity.name);
     }
     for test in &table.series {
-        refuse_negative(test, &table.names, turned)?;
         refuse_lone(test, table.scales)?;
+        refuse_negative(test, &table.names, turned)?;
         refuse_baseline(test)?;
     }
     Ok(table)

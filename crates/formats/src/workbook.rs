@@ -304,6 +304,9 @@ mod tests {
         let package = "http://schemas.openxmlformats.org/package/2006/relationships";
         let links = format!(r#"<Relationships xmlns="{package}">{links}</Relationships>"#);
         member("xl/_rels/workbook.xml.rels", &links);
+        let root =
+            format!(r#"<Relationship Id="r" Type="{office}/officeDocument" Target="xl/workbook.xml"/>"#);
+        member("_rels/.rels", &format!(r#"<Relationships xmlns="{package}">{root}</Relationships>"#));
         let styles = r#"<xf numFmtId="0"/><xf numFmtId="164"/><xf numFmtId="14"/>"#;
         let format = r#"<numFmts><numFmt numFmtId="164" formatCode="0.0%"/></numFmts>"#;
         let styles =

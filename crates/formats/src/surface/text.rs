@@ -250,8 +250,8 @@ fn has_grid(grid: &Grid<'_>) -> bool {
     onto_grid(&points).is_ok_and(|placed| placed.heights.len() == points.len())
 }
 
-/// A column or a row of places beside one of heights is a profile; many rows of few columns are a list, unless
-/// it `is_told` that they are a map.
+/// A column or a row of places beside one of heights is a profile; many rows of few columns are a list,
+/// unless it `is_told` that they are a map.
 fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
     let (columns, rows) = (grid.columns, grid.rows());
     let is_monotone = |places: &[f64]| {

@@ -52,9 +52,9 @@ const POSSIBLE_PIXELS: [f64; 2] = [1e-10, 1.0];
 /// Height over which a map may go, m.
 const MOST_HEIGHT: f64 = 1.0;
 
-/// The reason why the pixel of a file is not known.
-fn without_pixel(spacing: Spacing) -> String {
-    let (problem, size) = match spacing {
+/// The reason why the pixel of a file is not known, with the line that leaves it open.
+fn without_pixel(measured: &Measured) -> String {
+    let (problem, size) = match measured.spacing {
         Spacing::Numbers(steps) => {
             let [x, y] = steps.map(|step| rounded(step, 6));
             let size = if x == y { format!("\"{x} um\"") } else { format!("[\"{x} um\", \"{y} um\"]") };
@@ -62,8 +62,10 @@ fn without_pixel(spacing: Spacing) -> String {
         }
         _ => ("does not say how far its points are apart".into(), "\"1 um\"".to_string()),
     };
+    let line = measured.notes.iter().find(|note| note.starts_with("line "));
+    let line = line.map_or_else(String::new, |line| format!(" ({line})"));
     format!(
-        "the file {problem}: add pixel_size = {size} to [surface] (or nm, mm, m, whichever it is), or --set \
+        "the file {problem}{line}: add pixel_size = {size} to [surface] (or nm, mm, m, whichever it is), or --set \
          'surface.pixel_size={size}'"
     )
 }
@@ -333,7 +335,7 @@ impl SurfaceScene {
                 let message = "the file does not name the unit of its heights: add height_unit to [surface], which is \"nm\", \
                                \"um\", \"mm\" or \"m\", or --set surface.height_unit=UNIT";
                 let unsaid = matches!(measured.spacing, Spacing::Unknown | Spacing::Numbers(_));
-                let pixel = without_pixel(measured.spacing).replacen("the file", "it also", 1);
+                let pixel = without_pixel(&measured).replacen("the file", "it also", 1);
                 let both = unsaid && self.pixel_size.is_none();
                 return error("surface", if both { format!("{message}; {pixel}") } else { message.into() });
             }
@@ -354,7 +356,7 @@ impl SurfaceScene {
             }
             (_, Some(scene)) => scene,
             (Some(file), None) => file,
-            (None, None) => return error("surface", without_pixel(measured.spacing)),
+            (None, None) => return error("surface", without_pixel(&measured)),
         };
         let mut heights = measured.heights;
         let [least, most] = POSSIBLE_PIXELS;
