@@ -29,6 +29,39 @@ pub(crate) const PREFIXES: [(&str, f64); 10] = [
     ("deci", 1e-1),
 ];
 
+/// Units of ratios, and their names, with their value.
+const RATIOS: &[(&str, f64)] = &[
+    ("", 1.0),
+    ("1", 1.0),
+    ("-", 1.0),
+    ("mm/mm", 1.0),
+    ("m/m", 1.0),
+    ("in/in", 1.0),
+    ("%", 1e-2),
+    ("percent", 1e-2),
+    ("per cent", 1e-2),
+    ("pct", 1e-2),
+    ("prozent", 1e-2),
+    ("pourcent", 1e-2),
+    ("‰", 1e-3),
+    ("permille", 1e-3),
+    ("per mille", 1e-3),
+    ("promille", 1e-3),
+    ("millistrain", 1e-3),
+    ("mε", 1e-3),
+    ("mm/m", 1e-3),
+    ("microstrain", 1e-6),
+    ("micro strain", 1e-6),
+    ("ustrain", 1e-6),
+    ("µstrain", 1e-6),
+    ("μstrain", 1e-6),
+    ("µε", 1e-6),
+    ("με", 1e-6),
+    ("µm/m", 1e-6),
+    ("μm/m", 1e-6),
+    ("um/m", 1e-6),
+];
+
 impl Dimension {
     /// Symbols beside those of a quantity of a scene, and words, with their SI value.
     fn further(self) -> &'static [(&'static str, f64)] {
@@ -84,37 +117,7 @@ impl Dimension {
                 ("Gpa", 1e9),
                 ("GPA", 1e9),
             ],
-            Dimension::Ratio => &[
-                ("", 1.0),
-                ("1", 1.0),
-                ("-", 1.0),
-                ("mm/mm", 1.0),
-                ("m/m", 1.0),
-                ("in/in", 1.0),
-                ("%", 1e-2),
-                ("percent", 1e-2),
-                ("per cent", 1e-2),
-                ("pct", 1e-2),
-                ("prozent", 1e-2),
-                ("pourcent", 1e-2),
-                ("‰", 1e-3),
-                ("permille", 1e-3),
-                ("per mille", 1e-3),
-                ("promille", 1e-3),
-                ("millistrain", 1e-3),
-                ("mε", 1e-3),
-                ("mm/m", 1e-3),
-                ("microstrain", 1e-6),
-                ("micro strain", 1e-6),
-                ("ustrain", 1e-6),
-                ("µstrain", 1e-6),
-                ("μstrain", 1e-6),
-                ("µε", 1e-6),
-                ("με", 1e-6),
-                ("µm/m", 1e-6),
-                ("μm/m", 1e-6),
-                ("um/m", 1e-6),
-            ],
+            Dimension::Ratio => RATIOS,
         }
     }
 

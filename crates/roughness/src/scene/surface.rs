@@ -62,7 +62,8 @@ fn without_pixel(measured: &Measured) -> String {
         }
         _ => ("does not say how far its points are apart".into(), "\"1 um\"".to_string()),
     };
-    let line = measured.notes.iter().find(|note| note.starts_with("line "));
+    let mut notes = measured.notes.iter().flat_map(|note| note.split("; "));
+    let line = notes.find(|note| note.starts_with("line "));
     let line = line.map_or_else(String::new, |line| format!(" ({line})"));
     format!(
         "the file {problem}{line}: add pixel_size = {size} to [surface] (or nm, mm, m, whichever it is), or --set \
