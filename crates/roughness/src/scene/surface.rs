@@ -260,9 +260,9 @@ impl SurfaceScene {
         let map = match (&self.file, &self.heights, &self.generate) {
             (Some(file), ..) => {
                 let path = resolve(file);
-                let mut measured = surface::read(&path, &self.request())
+                let measured = surface::read(&path, &self.request())
                     .map_err(|e| SceneError::new(source, format!("{}: {e}", path.display())))?;
-                notes = std::mem::take(&mut measured.notes);
+                notes.clone_from(&measured.notes);
                 self.in_metres(measured)?
             }
             (None, Some(measured), _) => self.in_metres(measured.clone())?,
