@@ -31,7 +31,7 @@ const COARSE: f64 = 0.01;
 /// The program that a deck is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reader {
-    /// CalculiX; Abaqus reads it with a few words changed, which its heading names.
+    /// CalculiX.
     CalculiX,
     /// Abaqus/Standard as it is.
     Abaqus,
@@ -53,6 +53,8 @@ pub struct Deck {
     pub(crate) table: Option<PlasticTable>,
     /// The stress that it holds.
     pub(crate) stress_measure: StressMeasure,
+    /// Share of the hardening that moves the yield surface.
+    pub(crate) moving_share: f64,
     /// Contact pressure per penetration, MPa/µm.
     pub(crate) penalty: f64,
     /// Friction of the tool, its penalty the same; `None`: it is smooth.
@@ -65,12 +67,18 @@ pub struct Deck {
     pub(crate) contact: Vec<Edge>,
     /// Lower outline of the tool where it first touches, from left to right, µm.
     pub(crate) outline: Vec<[f64; 2]>,
-    /// Travel of the tool at the end of each step, µm; the last one has left the body if the scene unloads.
-    pub(crate) travels: Vec<f64>,
-    /// The number of them that load.
-    pub(crate) loading: usize,
+    /// The way of the tool: down, and back and down again as often as the scene asks.
+    pub(crate) phases: Vec<Phase>,
     /// Depth of the peak, µm.
     pub(crate) depth: f64,
+}
+
+/// A part of the way of the tool in one direction.
+pub(crate) struct Phase {
+    /// Its name.
+    pub(crate) name: String,
+    /// Travels of the tool at the end of each increment, µm; back, the last one has left the body.
+    pub(crate) travels: Vec<f64>,
 }
 
 impl Deck {
@@ -86,7 +94,7 @@ impl Deck {
                  `asperity crush` gives for this force",
             ));
         }
-        check(scene)?;
+        check(scene, reader)?;
         let um = problem.units.length / LENGTH;
         let section = match problem.symmetry {
             Symmetry::Axisymmetric => Section::Axisymmetric,
@@ -106,7 +114,6 @@ impl Deck {
         let ends =
             span(&problem.mesh, &contact, problem.depth, (section == Section::Axisymmetric).then_some(hole));
         let outline = outline(&problem.tool, ends);
-        let travels = travels(scene, problem);
         let hardening = scene.material.hardening();
         Ok(Deck {
             reader,
@@ -115,6 +122,7 @@ impl Deck {
             section,
             elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
             stress_measure: scene.material.stress_measure,
+            moving_share: scene.material.moving_share(),
             table: hardening.map(|curve| curve_table(&curve, STRESS, POINTS)),
             penalty: problem.penalty * problem.units.stress / STRESS / um,
             friction: problem.friction,
@@ -122,8 +130,7 @@ impl Deck {
             symmetric: scene.lateral == Lateral::Symmetric,
             contact,
             outline: outline.into_iter().map(|[x, z]| [um * x, um * (z + lowest)]).collect(),
-            loading: travels.0.len(),
-            travels: travels.0.into_iter().chain(travels.1).map(|t| um * t).collect(),
+            phases: phases(scene, problem, um),
             depth: um * problem.depth,
         })
     }
@@ -144,11 +151,12 @@ impl Deck {
 }
 
 /// Refuses materials and loadings that a deck cannot express.
-fn check(scene: &Scene) -> Result<(), SceneError> {
+fn check(scene: &Scene, reader: Reader) -> Result<(), SceneError> {
     let material = &scene.material;
     let points = material.hardening_table.as_ref().map_or(0, Vec::len);
-    if material.moving_share() > 0.0 {
-        let message = "a deck hardens isotropically: leave hardening_mode out";
+    if material.moving_share() > 0.0 && reader == Reader::Abaqus {
+        let message = "Abaqus moves its yield surface along a straight line or by back stresses that are fitted to a curve, neither of which \
+                       is this law: leave hardening_mode out, or write the deck for CalculiX (--format inp)";
         return Err(error("material.hardening_mode", message));
     }
     if points > POINTS {
@@ -162,9 +170,6 @@ fn check(scene: &Scene) -> Result<(), SceneError> {
     }
     if scene.initial.is_some() {
         return Err(error("initial", "a deck starts from a virgin body: leave earlier loads out"));
-    }
-    if scene.loading.reloads > 0 {
-        return Err(error("loading.reloads", "a deck unloads once: leave reloads out"));
     }
     Ok(())
 }
@@ -222,18 +227,31 @@ fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
     mesh
 }
 
-/// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own
-/// schedule and the penetration to be expected.
-fn travels(scene: &Scene, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
+/// The way of the tool, `um` micrometres to the unit of `problem`: the depths of the scene's own schedule and
+/// the penetration to be expected; back until nothing touches, and along the same depths down again.
+fn phases(scene: &Scene, problem: &Problem, um: f64) -> Vec<Phase> {
     let (depth, penetration) = (problem.depth, problem.numbers.penetration * problem.depth);
+    let peak = depth + penetration;
+    let phase = |name: String, travels: Vec<f64>| Phase {
+        name,
+        travels: travels.into_iter().map(|travel| um * travel).collect(),
+    };
     let load = problem.numbers.schedule().into_iter().map(|share| share * depth + penetration).collect();
+    let mut phases = vec![phase("LOADING".into(), load)];
     if !scene.loading.unload {
-        return (load, Vec::new());
+        return phases;
     }
-    let back = recovery(problem, penetration);
-    let unload = unloading(depth + penetration, back, problem.numbers.unload_steps, 0.0);
-    // far enough away that nothing touches: the body alone
-    (load, unload.chain([-0.1 * depth]).collect())
+    let way = unloading(peak, recovery(problem, penetration), problem.numbers.unload_steps, 0.0);
+    let back: Vec<f64> = way.chain([-0.1 * depth]).collect();
+    let again: Vec<f64> = back.iter().rev().skip(1).copied().chain([peak]).collect();
+    for cycle in 0..=problem.reloads {
+        let number = |name: &str| if problem.reloads > 0 { format!("{name}-{cycle}") } else { name.into() };
+        if cycle > 0 {
+            phases.push(phase(number("RELOADING"), again.clone()));
+        }
+        phases.push(phase(number("UNLOADING"), back.clone()));
+    }
+    phases
 }
 
 /// Estimated way from the peak to the end of contact, in the unit of `problem`: F ∝ (1 - u/u₀)^1.25 with the

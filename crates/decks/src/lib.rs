@@ -2,6 +2,7 @@
 
 mod outline;
 
+mod abaqus;
 mod deck;
 
 mod write;

@@ -13,7 +13,7 @@ const STICKING: f64 = 1000.0;
 const SLIP_TOLERANCE: f64 = 0.001;
 
 /// A number in at most 18 characters: a field of CalculiX holds 20.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     format!("{x:.11e}")
 }
 
@@ -26,14 +26,17 @@ impl Deck {
         self.heading(&mut out)?;
         write_inp(&mut out, &self.mesh, self.section, "um")?;
         write_inp_side(&mut out, &self.mesh, "CONTACT", &self.contact)?;
-        self.tool(&mut out)?;
+        match self.reader {
+            Reader::CalculiX => self.tool(&mut out)?,
+            Reader::Abaqus => self.rigid_tool(&mut out)?,
+        }
         self.metal(&mut out)?;
         self.interaction(&mut out)?;
         self.supports(&mut out)?;
-        for (index, travel) in self.travels.iter().enumerate() {
-            self.step(&mut out, index, *travel)?;
+        match self.reader {
+            Reader::CalculiX => self.steps(&mut out),
+            Reader::Abaqus => self.abaqus_steps(&mut out),
         }
-        Ok(())
     }
 
     /// The title, and how to read the results.
@@ -47,21 +50,26 @@ impl Deck {
             }
             Section::Axisymmetric => writeln!(
                 out,
-                "** CalculiX takes CAX elements as wedges of 2 degrees: multiply its forces, areas and energies by 180\n\
-                 ** (Abaqus: they are those of the full revolution). The axis is a hole of a thousandth of the first\n\
-                 ** element with u_r = 0, because CalculiX finds no contact on faces that collapse onto the axis."
+                "** CalculiX takes CAX elements as wedges of 2 degrees: multiply its forces, areas and energies by 180.\n\
+                 ** The axis is a hole of a thousandth of the first element with u_r = 0, because CalculiX finds no\n\
+                 ** contact on faces that collapse onto the axis."
             )?,
             Section::PlaneStrain => writeln!(
                 out,
                 "** plane strain, 1 um thick: forces in uN are N/m of ridge, areas in um2 widths in um"
             )?,
         }
+        let tool = match self.reader {
+            Reader::CalculiX => {
+                "The tool is a row of elements whose nodes all move together: its force is the sum of RF2 over set TOOL."
+            }
+            Reader::Abaqus => "The tool is a rigid body: its force is RF2 of node REF, its travel -U2 there.",
+        };
         writeln!(
             out,
-            "** The tool is a row of elements whose nodes all move together: its force is the sum of RF2 over set TOOL.\n\
+            "** {tool}\n\
              ** Its travel includes the penetration: depth = travel - mean pressure / penalty ({:.3e} MPa/um, made for a\n\
-             ** penetration of {:.2} % of the depth {:.4} um). Convergence in the load step is of first order in the ratio\n\
-             ** of successive depths in CalculiX: more steps (numerics.steps) matter more than a finer mesh.",
+             ** penetration of {:.2} % of the depth {:.4} um).",
             self.penalty,
             100.0 * self.penetration,
             self.depth
@@ -93,14 +101,23 @@ impl Deck {
                 "** *PLASTIC holds {measure}, as the scene means it; its reader has a measure of its own."
             )?;
         }
-        if self.reader == Reader::Abaqus {
-            return Ok(());
+        if self.moving_share > 0.0 && self.phases.len() > 1 {
+            writeln!(
+                out,
+                "** CalculiX 2.20 was seen to give up on the way back of a body that hardens kinematically."
+            )?;
         }
-        writeln!(
-            out,
-            "** Abaqus: in the first step write *CONTACT PRINT ... with CFN, CAREA instead of CF and *ENERGY PRINT instead\n\
-             ** of *EL PRINT ... ELSE; all else is common."
-        )
+        match self.reader {
+            Reader::CalculiX => writeln!(
+                out,
+                "** Convergence in the load step is of first order in the ratio of successive depths in CalculiX: more steps\n\
+                 ** (numerics.steps) matter more than a finer mesh."
+            ),
+            Reader::Abaqus => writeln!(
+                out,
+                "** Each unit of time is an increment of the scene's own schedule; history is written at the end of each."
+            ),
+        }
     }
 
     /// The tool: a row of linear elements over its outline, whose lower sides are the surface `TOOL`.
@@ -128,23 +145,47 @@ impl Deck {
         Ok(())
     }
 
-    /// The metal, and a material for the tool, whose elements never strain.
+    /// The metal; in CalculiX a material for the tool too, whose elements never strain.
     fn metal(&self, out: &mut impl Write) -> io::Result<()> {
         let elastic = format!("*ELASTIC\n{}, {}", number(self.elastic[0]), number(self.elastic[1]));
         writeln!(out, "*MATERIAL, NAME=METAL\n{elastic}")?;
         if let Some(table) = &self.table {
-            writeln!(out, "** yield stress over plastic strain\n*PLASTIC")?;
-            for [stress, strain] in &table.points {
-                writeln!(out, "{}, {}", number(*stress), number(*strain))?;
-            }
+            self.plasticity(out, &table.points)?;
         }
-        writeln!(out, "*MATERIAL, NAME=RIGID\n{elastic}")?;
         let thickness = match self.section {
             Section::Axisymmetric => "",
             Section::PlaneStrain => "1.\n",
         };
         write!(out, "*SOLID SECTION, ELSET=BODY, MATERIAL=METAL\n{thickness}")?;
+        if self.reader == Reader::Abaqus {
+            return Ok(());
+        }
+        writeln!(out, "*MATERIAL, NAME=RIGID\n{elastic}")?;
         write!(out, "*SOLID SECTION, ELSET=TOOL, MATERIAL=RIGID\n{thickness}")
+    }
+
+    /// The table of hardening; a share of it that moves the yield surface by itself.
+    fn plasticity(&self, out: &mut impl Write, points: &[[f64; 2]]) -> io::Result<()> {
+        let rows = |out: &mut dyn Write, share: f64| {
+            points.iter().try_for_each(|[stress, strain]| {
+                let first = points[0][0];
+                writeln!(out, "{}, {}", number(first + share * (stress - first)), number(*strain))
+            })
+        };
+        let moving = self.moving_share;
+        if moving > 0.0 && moving < 1.0 {
+            writeln!(
+                out,
+                "** movement of the yield surface over plastic strain, from first yield; then its size\n\
+                 *PLASTIC, HARDENING=COMBINED"
+            )?;
+            rows(out, moving)?;
+            writeln!(out, "*CYCLIC HARDENING")?;
+            return rows(out, 1.0 - moving);
+        }
+        let kinematic = if moving > 0.0 { ", HARDENING=KINEMATIC" } else { "" };
+        writeln!(out, "** yield stress over plastic strain\n*PLASTIC{kinematic}")?;
+        rows(out, 1.0)
     }
 
     /// Contact with the penalty, smooth or with friction.
@@ -192,45 +233,44 @@ impl Deck {
         if self.symmetric && !sides.outer.is_empty() {
             writeln!(out, "OUTER, 1")?;
         }
-        writeln!(out, "TOOL, 1")
+        match self.reader {
+            Reader::CalculiX => writeln!(out, "TOOL, 1"),
+            Reader::Abaqus => writeln!(out, "REF, 1\nREF, 6"),
+        }
     }
 
-    /// One step to `travel`; forces, contact and energy are printed at its end, fields kept at the peak and
-    /// at the end.
-    fn step(&self, out: &mut impl Write, index: usize, travel: f64) -> io::Result<()> {
-        let kind = if index < self.loading { "loading" } else { "unloading" };
-        writeln!(out, "** step {}, {kind} to a travel of {travel:.6} um", index + 1)?;
-        writeln!(out, "*STEP, NLGEOM, INC=1000\n*STATIC\n1., 1., 1.E-6, 1.")?;
-        writeln!(out, "*BOUNDARY\nTOOL, 2, 2, {}", number(-travel))?;
-        if self.reader == Reader::Abaqus {
-            return self.abaqus_output(out, index);
+    /// One step to each travel; forces, contact and energy are printed at its end, fields kept at the end of
+    /// each phase.
+    fn steps(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut index = 0;
+        for phase in &self.phases {
+            for (i, travel) in phase.travels.iter().enumerate() {
+                let ends = [i == 0, i + 1 == phase.travels.len()];
+                index += 1;
+                let kind = phase.name.to_lowercase();
+                writeln!(out, "** step {index}, {kind} to a travel of {travel:.6} um")?;
+                writeln!(out, "*STEP, NLGEOM, INC=1000\n*STATIC\n1., 1., 1.E-6, 1.")?;
+                writeln!(out, "*BOUNDARY\nTOOL, 2, 2, {}", number(-travel))?;
+                output(out, index == 1, ends)?;
+            }
         }
-        if index == 0 {
-            writeln!(out, "*NODE PRINT, NSET=TOOL, TOTALS=YES, FREQUENCY=1000\nU, RF")?;
-            writeln!(out, "*EL PRINT, ELSET=BODY, TOTALS=ONLY, FREQUENCY=1000\nELSE")?;
-            writeln!(out, "*CONTACT PRINT, SLAVE=CONTACT, MASTER=TOOL, FREQUENCY=1000\nCF")?;
-        }
-        let fields = index + 1 == self.loading || index + 1 == self.travels.len();
-        let frequency = if fields { 1000 } else { 0 };
-        if fields || index == 0 || index == self.loading {
-            writeln!(out, "*NODE FILE, FREQUENCY={frequency}\nU, RF")?;
-            writeln!(out, "*EL FILE, FREQUENCY={frequency}\nS, PEEQ, ENER")?;
-            writeln!(out, "*CONTACT FILE, FREQUENCY={frequency}\nCDIS, CSTR")?;
-        }
-        writeln!(out, "*END STEP")
+        Ok(())
     }
+}
 
-    /// The end of a step of Abaqus: requests of its first step hold for the later ones.
-    fn abaqus_output(&self, out: &mut impl Write, index: usize) -> io::Result<()> {
-        if index == 0 {
-            writeln!(out, "*NODE PRINT, NSET=TOOL, TOTALS=YES, FREQUENCY=1000\nU, RF")?;
-            writeln!(out, "*ENERGY PRINT, FREQUENCY=1000")?;
-            writeln!(out, "*CONTACT PRINT, SLAVE=CONTACT, MASTER=TOOL, FREQUENCY=1000\nCFN, CAREA")?;
-            writeln!(out, "*OUTPUT, FIELD, FREQUENCY=1000\n*NODE OUTPUT\nU, RF")?;
-            writeln!(out, "*ELEMENT OUTPUT, ELSET=BODY\nS, PEEQ\n*CONTACT OUTPUT\nCSTRESS, CDISP")?;
-            writeln!(out, "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=TOOL\nRF2, U2")?;
-            writeln!(out, "*ENERGY OUTPUT\nALLSE, ALLPD, ALLWK")?;
-        }
-        writeln!(out, "*END STEP")
+/// The output of a step of CalculiX: the very first one asks for what is printed, the first and the last of a
+/// phase say whether fields are kept.
+fn output(out: &mut impl Write, is_very_first: bool, [is_first, is_last]: [bool; 2]) -> io::Result<()> {
+    if is_very_first {
+        writeln!(out, "*NODE PRINT, NSET=TOOL, TOTALS=YES, FREQUENCY=1000\nU, RF")?;
+        writeln!(out, "*EL PRINT, ELSET=BODY, TOTALS=ONLY, FREQUENCY=1000\nELSE")?;
+        writeln!(out, "*CONTACT PRINT, SLAVE=CONTACT, MASTER=TOOL, FREQUENCY=1000\nCF")?;
     }
+    if is_first || is_last {
+        let frequency = if is_last { 1000 } else { 0 };
+        writeln!(out, "*NODE FILE, FREQUENCY={frequency}\nU, RF")?;
+        writeln!(out, "*EL FILE, FREQUENCY={frequency}\nS, PEEQ, ENER")?;
+        writeln!(out, "*CONTACT FILE, FREQUENCY={frequency}\nCDIS, CSTR")?;
+    }
+    writeln!(out, "*END STEP")
 }
