@@ -1,9 +1,10 @@
 //! Flags that several commands share.
 
+use crate::folder::Folder;
 use crate::terminal;
 use asperity::error::{Error, InputError};
 use asperity::input::scene::Scene;
-use asperity::output::{Sink, SinkExt};
+use asperity::output::SinkExt;
 use asperity::simulation::scene::{Accuracy, AccuracyError};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Args, Command};
@@ -102,22 +103,24 @@ impl RunFlags {
 /// The flag of commands whose result is a page too.
 #[derive(Debug, Args)]
 pub struct ReportFlag {
-    /// Write report.html too: a page that stands alone, with the numbers and their errors first and curves that tell their values
+    /// Write report.html too: a page that stands alone, with the numbers and their errors first and curves that tell their values;
+    /// a rerun into a folder with a page writes it anew
     #[arg(long)]
     pub report: bool,
 }
 
 impl ReportFlag {
-    /// Writes the page where it is asked for.
+    /// Writes the page where it is asked for, and anew where results with a page are replaced.
     ///
     /// # Errors
     /// Those of `page`, or a disk that refuses.
     pub fn write(
         &self,
-        sink: &mut dyn Sink,
+        folder: &mut Folder,
         page: impl FnOnce() -> Result<String, Error>,
     ) -> Result<(), Error> {
-        if self.report { sink.text("report.html", &page()?) } else { Ok(()) }
+        const NAME: &str = "report.html";
+        if self.report || folder.replaces(NAME) { folder.text(NAME, &page()?) } else { Ok(()) }
     }
 }
 

@@ -153,6 +153,12 @@ impl Folder {
         }
     }
 
+    /// True where the results that are replaced hold a file of this name.
+    pub fn replaces(&self, name: &str) -> bool {
+        fs::read_to_string(self.target.join(MANIFEST))
+            .is_ok_and(|old| old.lines().skip(1).any(|file| file == name))
+    }
+
     /// Leaves no trace of a run that did not begin.
     pub fn abandon(self) {
         let Folder { target, partial, manifest, files } = self;

@@ -213,10 +213,23 @@ fn of_a_crush_in_plane_strain_with_reloads() {
             && text.contains("reloading")
     );
     assert!(text.contains("The first loading, then the reloads"));
-    // without the flag there is no page
-    let end = place.run(&["crush", "scene.toml", "--out", "out", "--quiet"]);
+    // without the flag there is no page, but where one is: it is written anew
+    let end = place.run(&["crush", "scene.toml", "--out", "other", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);
-    assert!(!place.names("out").contains(&"report.html".to_string()));
+    assert!(!place.names("other").contains(&"report.html".to_string()));
+    let end = place.run(&[
+        "crush",
+        "scene.toml",
+        "--out",
+        "out",
+        "--quiet",
+        "--set",
+        "material.poissons_ratio=0.25",
+    ]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let anew = place.text("out/report.html");
+    assert!(anew != text, "the page of the run before");
+    checked(&anew, &place.text("out/summary.json"));
 }
 
 #[test]
