@@ -120,12 +120,48 @@ pub fn read_as(
         table.series.iter_mut().flat_map(|test| &mut test.rows).for_each(|row| row[k] = -row[k]);
         table.understood += &format!("; the sign of the {} turned", quantity.name);
     }
+    join_parts(&mut table);
     for test in &table.series {
         refuse_lone(test, table.scales)?;
         refuse_negative(test, &table.names, turned)?;
         refuse_baseline(test)?;
     }
     Ok(table)
+}
+
+/// Distance in depth and in force, as a share of the largest ones, up to which a part goes on where the one
+/// before it ends.
+const DISTANCE_OF_PARTS: f64 = 0.05;
+/// Depth over the largest one from which a part begins within a test: others begin at the surface.
+const LEAST_DEPTH_OF_A_PART: f64 = 0.2;
+
+/// Joins the parts of a test (loading, hold, unloading) that stand under headers of their own, side by side,
+/// or under numbers of segments: each begins where the one before it ends.
+fn join_parts(table: &mut SeriesTable<2>) {
+    let count = table.series.len();
+    let mut tests: Vec<Series<2>> = Vec::with_capacity(count);
+    for part in table.series.drain(..) {
+        match tests.last_mut() {
+            Some(test) if goes_on(&test.rows, &part.rows) => {
+                test.rows.extend(part.rows);
+                test.lines.extend(part.lines);
+            }
+            _ => tests.push(part),
+        }
+    }
+    if tests.len() < count {
+        let what = if tests.len() == 1 { "one test".into() } else { format!("{} tests", tests.len()) };
+        table.understood += &format!("; {count} parts joined to {what}");
+    }
+    table.series = tests;
+}
+
+/// True where `next` begins where `test` ends.
+fn goes_on(test: &[[f64; 2]], next: &[[f64; 2]]) -> bool {
+    let (Some(end), Some(start)) = (test.last(), next.first()) else { return false };
+    let most = |k: usize| test.iter().map(|row| row[k].abs()).fold(0.0, f64::max);
+    let is_near = |k: usize| (start[k] - end[k]).abs() <= DISTANCE_OF_PARTS * most(k);
+    is_near(0) && is_near(1) && start[0] >= LEAST_DEPTH_OF_A_PART * most(0)
 }
 
 /// Refuses a test whose forces, or whose depths at the largest force, are negative.

@@ -63,7 +63,9 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     let columns = sheet.rows.values().flat_map(|row| row.keys());
     let width = columns.max().map_or(0, |last| *last as usize + 1);
     // cells that are empty take a tab each
-    if width.saturating_mul(sheet.rows.len()) / CELL_BYTES as usize > most_cells() {
+    let ends = [sheet.rows.keys().next(), sheet.rows.keys().next_back()].map(|row| row.copied().unwrap_or(0));
+    let height = (ends[1] - ends[0]) as usize + 1;
+    if width.saturating_mul(height) / CELL_BYTES as usize > most_cells() {
         return Err(TextError::whole(too_many()));
     }
     let others = if sheets.len() > 1 { format!(", one of {}", sheets.len()) } else { String::new() };
@@ -104,14 +106,18 @@ impl Sheet {
             columns().filter(|(_, cell)| is_number(cell)).map(|(column, _)| *column).max().unwrap_or(0);
         let mut out = String::new();
         let mut line = self.rows.keys().next().copied().unwrap_or(0);
+        let mut had_number = false;
         for (place, row) in &self.rows {
-            // lines of the text are those of the sheet where it is filled
-            if *place > line {
-                out.push('\n');
-            }
-            line = *place;
-            let end = last.max(row.keys().next_back().copied().unwrap_or(0));
             let has_number = row.values().any(|cell| is_number(cell));
+            // lines of the text are those of the sheet; rows without a cell between numbers are missing ones
+            for before in line..*place {
+                out.push('\n');
+                if had_number && has_number && before + 1 < *place {
+                    out.extend((first..last).map(|_| '\t'));
+                }
+            }
+            (line, had_number) = (*place, has_number);
+            let end = last.max(row.keys().next_back().copied().unwrap_or(0));
             let end = if has_number { end } else { row.keys().next_back().copied().unwrap_or(0) };
             for column in first..=end {
                 if column > first {

@@ -268,6 +268,7 @@ mod tests {
             rows,
             heights: heights.collect(),
             spacing: Spacing::Metres([pixel; 2]),
+            spacing_error: 0.0,
             height_unit: Some(1.0),
             notes: Vec::new(),
         };

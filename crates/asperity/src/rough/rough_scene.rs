@@ -109,7 +109,15 @@ impl RoughScene {
         let (spacing, height_unit) = (Spacing::Metres(pixel), Some(1.0));
         let surface = &mut self.scene.surface;
         (surface.file, surface.generate) = (None, None);
-        surface.heights = Some(Measured { columns, rows, heights, spacing, height_unit, notes: Vec::new() });
+        surface.heights = Some(Measured {
+            columns,
+            rows,
+            heights,
+            spacing,
+            spacing_error: 0.0,
+            height_unit,
+            notes: Vec::new(),
+        });
         self
     }
 

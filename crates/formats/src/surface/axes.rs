@@ -1,5 +1,6 @@
 //! Places and numbers of rows and columns beside a table of heights.
 
+use super::even::{Step, slope};
 use super::measured::ReadError;
 use crate::dimension::Dimension;
 use crate::text::{Grid, TextError, folded_name, header_cells};
@@ -10,9 +11,7 @@ const ROWS_OF_PLACES: usize = 8;
 const ROWS_BELOW_A_CORNER: usize = 3;
 /// The same where a unit of length stands in the corner.
 const ROWS_BELOW_A_UNIT: usize = 2;
-/// Largest distance of a place from its line, as a share of a step: that of printed digits.
-const SCATTER_OF_PLACES: f64 = 1e-2;
-/// The same of heights on a plane, rounded to whole numbers.
+/// Largest distance of heights on a plane from their line, as a share of their step, rounded to whole numbers.
 const SCATTER_OF_HEIGHTS: f64 = 1.0;
 /// Largest difference of slope of neighbouring lines on such a plane.
 const SAME_SLOPE: f64 = 0.3;
@@ -21,20 +20,23 @@ const SAME_SLOPE: f64 = 0.3;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Axes {
     /// Step along x and y where it was given.
-    pub steps: [Option<f64>; 2],
+    pub steps: [Option<Step>; 2],
     /// Metres per unit of the places, where the corner names it.
     pub lateral_unit: Option<f64>,
     /// Metres per unit of the heights, where the corner names it.
     pub height_unit: Option<f64>,
     /// The finding, in words.
     pub said: String,
+    /// The reason why the steps are not certain.
+    pub doubt: Option<String>,
 }
 
 /// A row of places among the words above the heights.
 struct Above {
-    step: f64,
+    step: Step,
     start: f64,
     corner: String,
+    line: usize,
 }
 
 /// Removes a first row and a first column that are places along x and y, or numbers of rows and columns.
@@ -49,11 +51,11 @@ pub(super) fn take(grid: &mut Grid<'_>) -> Result<Option<Axes>, ReadError> {
     let column = |k: usize| grid.values.iter().skip(k).step_by(columns).copied().collect::<Vec<f64>>();
     let first = column(0);
     if let Some(above) = row_above(grid)
-        && let Some(down) = even_step(&first, SCATTER_OF_PLACES)
+        && let Some(down) = Step::new(&first)
         && rows.min(columns - 1) >= above.least()
     {
         let mut axes = Axes { said: said([true; 2]), ..Axes::default() };
-        axes.take_corner(&above.corner);
+        axes.take_corner(&above.corner, above.line);
         axes.take_steps([Some((above.step, above.start)), Some((down, first[0]))]);
         remove(grid, [false, true]);
         return Ok(Some(axes));
@@ -88,17 +90,31 @@ pub(super) fn take(grid: &mut Grid<'_>) -> Result<Option<Axes>, ReadError> {
 
 impl Axes {
     /// Steps of places; mere numbers of rows and columns say nothing.
-    fn take_steps(&mut self, found: [Option<(f64, f64)>; 2]) {
-        let is_number = |(step, start): (f64, f64)| step == 1.0 && (start == 0.0 || start == 1.0);
+    fn take_steps(&mut self, found: [Option<(Step, f64)>; 2]) {
+        let is_number = |(step, start): (Step, f64)| step.length == 1.0 && (start == 0.0 || start == 1.0);
         if found.iter().flatten().all(|found| is_number(*found)) && self.lateral_unit.is_none() {
             self.said.push_str(", which count from 0 or 1");
         } else {
             self.steps = found.map(|found| found.map(|(step, _)| step));
+            let error = self.error();
+            if error > 0.0 {
+                self.said.push_str(&format!(", rounded so that steps are known to {:.1} %", 100.0 * error));
+            }
         }
     }
 
+    /// Share of the steps that the rounding of the places leaves open.
+    pub fn error(&self) -> f64 {
+        self.steps.iter().flatten().map(|step| step.error).fold(0.0, f64::max)
+    }
+
     /// The unit in a corner like `y\x (um)` or `Height [um]`.
-    fn take_corner(&mut self, corner: &str) {
+    fn take_corner(&mut self, corner: &str, line: usize) {
+        if Dimension::Length.scale(corner.trim()).is_some() {
+            self.doubt = Some(format!(
+                "line {line}: \"{corner}\" may be the unit of the places or of the heights: no size was taken from them"
+            ));
+        }
         let (name, unit) = folded_name(corner);
         let Some(unit) = unit.and_then(|unit| Dimension::Length.scale(&unit)) else { return };
         let words: Vec<&str> = name.split([' ', '\\', '|']).collect();
@@ -129,7 +145,7 @@ impl Above {
 
 /// The row of places that stands with a word in its corner, and so among the words above the numbers.
 fn row_above(grid: &Grid<'_>) -> Option<Above> {
-    let (_, text) = grid.before.iter().rev().find(|(_, line)| !line.is_empty())?;
+    let &(line, text) = grid.before.iter().rev().find(|(_, line)| !line.is_empty())?;
     let text = text.trim_start_matches(['#', '%', ' ']);
     let cells = header_cells(&grid.dialect, text, Some(grid.columns));
     let corner = cells.first().filter(|_| cells.len() == grid.columns)?;
@@ -138,36 +154,18 @@ fn row_above(grid: &Grid<'_>) -> Option<Above> {
     }
     let places: Option<Vec<f64>> = cells[1..].iter().map(|cell| grid.dialect.number(cell)).collect();
     let places = places?;
-    Some(Above {
-        step: even_step(&places, SCATTER_OF_PLACES)?,
-        start: *places.first()?,
-        corner: corner.clone(),
-    })
+    Some(Above { step: Step::new(&places)?, start: *places.first()?, corner: corner.clone(), line })
 }
 
 /// The step of numbers that are places: even, and beside heights that are not. A plane without noise is
 /// even in all of its rows and columns.
-fn places(line: &[f64], beside: &[f64], least: usize) -> Option<f64> {
-    let step = even_step(line, SCATTER_OF_PLACES).filter(|_| line.len() >= least)?;
-    let slope = |scatter| slope(beside, scatter);
-    let is_near = |other: f64| (other.abs() / step - 1.0).abs() < SAME_SLOPE;
-    let is_plane = slope(SCATTER_OF_PLACES).is_some() || slope(SCATTER_OF_HEIGHTS).is_some_and(is_near);
+fn places(line: &[f64], beside: &[f64], least: usize) -> Option<Step> {
+    let step = Step::new(line).filter(|_| line.len() >= least)?;
+    let is_near = |other: f64| (other.abs() / step.length - 1.0).abs() < SAME_SLOPE;
+    let is_plane = slope(beside, super::even::SCATTER).is_some()
+        || slope(beside, SCATTER_OF_HEIGHTS).is_some_and(is_near);
     let is_told = beside.iter().filter(|z| z.is_finite()).count() > 2;
     (least < ROWS_OF_PLACES || !(is_told && is_plane)).then_some(step)
-}
-
-/// The step of numbers that lie on a straight line.
-fn even_step(places: &[f64], scatter: f64) -> Option<f64> {
-    slope(places, scatter).filter(|_| places.iter().all(|place| place.is_finite())).map(f64::abs)
-}
-
-/// The slope of numbers on a straight line, some of which may be missing.
-fn slope(line: &[f64], scatter: f64) -> Option<f64> {
-    let there = || line.iter().enumerate().filter(|(_, z)| z.is_finite()).map(|(i, z)| (i as f64, *z));
-    let (first, last) = (there().next()?, there().next_back()?);
-    let slope = (last.1 - first.1) / (last.0 - first.0);
-    let near = |(i, z): (f64, f64)| (z - first.1 - (i - first.0) * slope).abs() <= scatter * slope.abs();
-    (slope != 0.0 && slope.is_finite() && there().all(near)).then_some(slope)
 }
 
 fn doubt(grid: &Grid<'_>, down: bool) -> ReadError {

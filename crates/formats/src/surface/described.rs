@@ -38,8 +38,9 @@ pub(super) struct Described {
     is_spip: bool,
     /// The number for a point that was not measured.
     missing: Option<f64>,
-    /// A factor of the heights whose meaning is not known, with its line.
-    scale: Option<(String, usize)>,
+    /// A factor of the heights whose meaning is not known, with its line, and true where it can be nothing
+    /// else than a factor.
+    scale: Option<(String, usize, bool)>,
 }
 
 impl Described {
@@ -206,23 +207,17 @@ impl Described {
 
     /// A mark of missing points, a ratio of sides, a factor of heights.
     fn take_number(&mut self, remark: &Remark) {
-        const SCALES: [&str; 10] = [
-            "scale",
-            "calibration",
-            "kalibrierung",
-            "factor",
-            "faktor",
-            "multiplier",
-            "scaling",
-            "lsb",
-            "resolution",
-            "increment",
-        ];
+        const FACTORS: [&str; 7] =
+            ["scale", "factor", "faktor", "multiplier", "scaling", "calibration", "kalibrierung"];
+        const STEPS: [&str; 3] = ["lsb", "resolution", "increment"];
         const HEIGHTS: [&str; 7] = ["z", "data", "height", "heights", "value", "values", "vertical"];
         let numbers = remark.numbers(self.decimal);
         let is_whole = |number: &&(f64, Option<String>)| number.0 >= 2.0 && number.0.fract() == 0.0;
-        let whole = numbers.list.iter().filter(is_whole).map(|(number, _)| (remark.line, *number as usize));
-        self.whole.extend(whole);
+        // more of them in a line are places
+        if numbers.list.len() <= 3 {
+            let whole = numbers.list.iter().filter(is_whole);
+            self.whole.extend(whole.map(|(number, _)| (remark.line, *number as usize)));
+        }
         let Some((number, rest)) = number_and_unit(&remark.value) else { return };
         let key = remark.key.as_str();
         let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
@@ -232,8 +227,13 @@ impl Described {
             let other =
                 rest.trim().strip_prefix(':').and_then(number_and_unit).map_or(1.0, |(other, _)| other);
             self.aspect = Some(number / other);
-        } else if (has(&SCALES) && has(&HEIGHTS) || ["bit2nm", "lsb"].contains(&key)) && number != 1.0 {
-            self.scale = self.scale.take().or(Some((format!("{key} = {}", remark.value), remark.line)));
+        } else if (has(&FACTORS) || has(&STEPS)) && has(&HEIGHTS) && number != 1.0
+            || ["bit2nm", "lsb"].contains(&key)
+        {
+            // with a unit it may be a range or a step of the digits
+            let is_factor = has(&FACTORS) && rest.trim().is_empty();
+            let said = (format!("{key} = {}", remark.value), remark.line, is_factor);
+            self.scale = self.scale.take().or(Some(said));
         }
     }
 
@@ -244,21 +244,22 @@ impl Described {
         Some(format!("{count} points of {mark} are missing, as the words before the heights say"))
     }
 
-    /// Refuses whole numbers beside a factor whose meaning is not known.
+    /// Refuses heights beside a factor, and whole numbers beside a step, whose meaning is not known.
     ///
     /// # Errors
     /// Such a factor.
     pub fn refuse_scale(&self, heights: &[f64], request: &Request<'_>) -> Result<(), ReadError> {
-        let Some((said, line)) = self.scale.as_ref().filter(|_| !request.override_file) else {
+        let Some((said, line, is_factor)) = self.scale.as_ref().filter(|_| !request.override_file) else {
             return Ok(());
         };
-        if heights.iter().any(|z| z.is_finite() && z.fract() != 0.0) {
+        let is_whole = heights.iter().all(|z| !z.is_finite() || z.fract() == 0.0);
+        if !is_factor && !is_whole {
             return Ok(());
         }
+        let beside = if is_whole { " beside heights that are whole numbers" } else { "" };
         let problem = format!(
-            "says \"{said}\" beside heights that are whole numbers, and not whether they are to be multiplied by it: export \
-             heights in a unit of length, or multiply them and delete this line, or set override = true if they are in their \
-             unit already"
+            "says \"{said}\"{beside}, and not whether the heights are to be multiplied by it: export them in a unit of length, or \
+             multiply them and delete this line, or set override = true if they are in their unit already"
         );
         Err(TextError::new(*line, problem).into())
     }

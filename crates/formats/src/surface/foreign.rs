@@ -52,7 +52,9 @@ const KINDS: [(&[u8], &str, &str); 18] = [
 
 /// The error that names a format by its beginning.
 pub(super) fn named(start: &[u8]) -> Option<ReadError> {
-    let (_, found, export) = KINDS.iter().find(|(magic, ..)| start.starts_with(magic))?;
+    // WSxM begins its exports of text as its images
+    let is_text = start.split(|b| *b == b'\n').nth(1).is_some_and(|line| line.starts_with(b"WSxM ASCII"));
+    let (_, found, export) = KINDS.iter().find(|(magic, ..)| start.starts_with(magic) && !is_text)?;
     Some(ReadError::Foreign { found: (*found).into(), export })
 }
 

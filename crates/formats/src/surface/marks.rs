@@ -21,6 +21,8 @@ const MARKS: [f64; 13] = [
 /// Distance of a mark from all heights, in ranges of these.
 const LEAST_DISTANCE: f64 = 3.0;
 
+/// The same of 0, which also is the floor of a map that a program made: then heights follow close above it.
+const DISTANCE_OF_ZERO: f64 = 1.0;
 /// The same of a number that is none of these, but stands there more than once.
 const DISTANCE_OF_REPEATED: f64 = 10.0;
 /// The same of any number: no surface has a single point so far away.
@@ -45,6 +47,7 @@ pub(super) fn refuse(heights: &[f64], request: &Request<'_>) -> Result<(), ReadE
         let least = match count {
             _ if MARKS.contains(&end) => LEAST_DISTANCE,
             1 => DISTANCE_OF_ANY,
+            _ if end == 0.0 => DISTANCE_OF_ZERO,
             _ => DISTANCE_OF_REPEATED,
         };
         if high > low && distance > least * (high - low) {

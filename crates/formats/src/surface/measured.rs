@@ -159,6 +159,8 @@ pub struct Measured {
     pub heights: Vec<f64>,
     /// Distance of the nodes.
     pub spacing: Spacing,
+    /// Share of it that digits printed in the file leave open.
+    pub spacing_error: f64,
     /// Metres per unit of height, where the file says.
     pub height_unit: Option<f64>,
     /// Interpretation of the file, and remarks on it, each a sentence without its full stop.
@@ -174,6 +176,7 @@ impl Measured {
             rows,
             heights,
             spacing: Spacing::Metres(pixel),
+            spacing_error: 0.0,
             height_unit: Some(1.0),
             notes: Vec::new(),
         }

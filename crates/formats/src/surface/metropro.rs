@@ -45,5 +45,5 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         (Spacing::Metres([FORMAT.positive("lateral resolution", pixel)?; 2]), Vec::new())
     };
     let (columns, rows) = (columns as usize, rows as usize);
-    Ok(Measured { columns, rows, heights, spacing, height_unit: Some(1.0), notes })
+    Ok(Measured { columns, rows, heights, spacing, spacing_error: 0.0, height_unit: Some(1.0), notes })
 }

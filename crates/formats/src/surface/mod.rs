@@ -10,6 +10,7 @@ mod axes;
 mod bcr;
 mod datx;
 mod described;
+mod even;
 mod foreign;
 mod gsf;
 mod gwy;
@@ -39,6 +40,7 @@ pub use npy::write_npy;
 pub use vti::Vti;
 pub use x3p::write_x3p;
 
+use rayon::prelude::*;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -51,6 +53,13 @@ type Reader = fn(&Path, &Request<'_>) -> Result<Measured, ReadError>;
 /// # Errors
 /// A file that cannot be read, is of no known format, is damaged, or takes more memory than it may.
 pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let mut map = read_as_written(path, request)?;
+    // a number without end is no height either
+    map.heights.par_iter_mut().filter(|z| z.is_infinite()).for_each(|z| *z = f64::NAN);
+    Ok(map)
+}
+
+fn read_as_written(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
     let mut start = Vec::new();
     File::open(path)?.take(foreign::LOOKED_AT).read_to_end(&mut start)?;
     if let Some(reader) = reader(&start) {

@@ -29,6 +29,7 @@ pub(super) const WIDTH: &[&str] = &[
     "xsize",
     "lx",
     "x real",
+    "x amplitude",
 ];
 pub(super) const HEIGHT: &[&str] = &[
     "height",
@@ -58,6 +59,7 @@ pub(super) const HEIGHT: &[&str] = &[
     "ysize",
     "ly",
     "y real",
+    "y amplitude",
     "y height",
 ];
 pub(super) const SIZE: &[&str] =

@@ -121,7 +121,15 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     if header.order() == Order::Fortran {
         heights = transposed(&heights, rows);
     }
-    Ok(Measured { columns, rows, heights, spacing: Spacing::Unknown, height_unit: None, notes: Vec::new() })
+    Ok(Measured {
+        columns,
+        rows,
+        heights,
+        spacing: Spacing::Unknown,
+        spacing_error: 0.0,
+        height_unit: None,
+        notes: Vec::new(),
+    })
 }
 
 /// Writes heights as an array of f64, axis 0 = y.

@@ -75,7 +75,15 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         }
         None => Spacing::Unknown,
     };
-    Ok(Measured { columns, rows, heights, spacing, height_unit: Some(1.0), notes: Vec::new() })
+    Ok(Measured {
+        columns,
+        rows,
+        heights,
+        spacing,
+        spacing_error: 0.0,
+        height_unit: Some(1.0),
+        notes: Vec::new(),
+    })
 }
 
 /// The blocks that the directory names.

@@ -1,10 +1,13 @@
 //! Points put on the regular grid that they scatter about.
 
+use super::even::last_digit;
 use super::measured::MOST_NODES;
 use rayon::prelude::*;
 
 /// Largest distance of a point from its node, as a share of the step.
 const LARGEST_SCATTER: f64 = 0.05;
+/// The same of points whose places were rounded to so few digits.
+const LARGEST_ROUNDING: f64 = 0.3;
 /// Scatter below which nothing is said of it: that of printed digits.
 const SEEN_SCATTER: f64 = 1e-3;
 
@@ -17,6 +20,8 @@ pub(super) struct Placed {
     pub rows: usize,
     /// Distance of nodes.
     pub step: [f64; 2],
+    /// Share of it that the rounding of the places leaves open.
+    pub error: f64,
     /// Heights row by row, NaN where no point is.
     pub heights: Vec<f64>,
     /// Changes that were made to the points.
@@ -28,6 +33,8 @@ struct Axis {
     low: f64,
     step: f64,
     count: usize,
+    /// Half a unit of the last digit of the places, as a share of the step.
+    rounding: f64,
 }
 
 /// The map through points x, y, z.
@@ -56,13 +63,19 @@ pub(super) fn onto_grid(points: &[[f64; 3]]) -> Result<Placed, String> {
         }
         heights[node] = p[2];
     }
-    if farthest > LARGEST_SCATTER {
+    let rounding = [x.rounding, y.rounding].map(|r| if r < LARGEST_ROUNDING { r } else { 0.0 });
+    let [round_x, round_y] = rounding;
+    // a place may miss by its rounding and by that of the ends
+    if farthest > (2.0 * round_x.max(round_y)).max(LARGEST_SCATTER) {
         return Err(cloud(&format!(
             "a point is {:.0} % of a step away from its node, more than {:.0} %",
             100.0 * farthest,
             100.0 * LARGEST_SCATTER
         )));
     }
+    let share = |rounding: f64, count: usize| 2.0 * rounding / (count - 1).max(1) as f64;
+    let error =
+        if farthest > SEEN_SCATTER { share(round_x, x.count).max(share(round_y, y.count)) } else { 0.0 };
     let note = (farthest > SEEN_SCATTER).then(|| {
         format!(
             "points put on a grid of {} x {}, the farthest by {:.1} % of a step",
@@ -71,7 +84,7 @@ pub(super) fn onto_grid(points: &[[f64; 3]]) -> Result<Placed, String> {
             100.0 * farthest
         )
     });
-    Ok(Placed { columns: x.count, rows: y.count, step: [x.step, y.step], heights, note })
+    Ok(Placed { columns: x.count, rows: y.count, step: [x.step, y.step], error, heights, note })
 }
 
 fn cloud(why: &str) -> String {
@@ -98,7 +111,9 @@ impl Axis {
         // the whole length over the number of steps is more exact than one step; lines may be absent
         let length = lines[lines.len() - 1] - lines[0];
         let steps = steps_between(&lines, step);
-        Ok(Axis { low: lines[0], step: length / steps as f64, count: steps + 1 })
+        let step = length / steps as f64;
+        let rounding = last_digit(lines.iter().copied()).map_or(0.0, |unit| 0.5 * unit / step);
+        Ok(Axis { low: lines[0], step, count: steps + 1, rounding })
     }
 
     /// The nearest node and how far it is, as a share of the step.

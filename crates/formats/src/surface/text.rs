@@ -10,7 +10,7 @@ use super::points::onto_grid;
 use super::titled;
 use crate::dimension::Dimension;
 use crate::text::{
-    Asked, Columns, Grid, Header, Quantity, Separator, TextError, decode, folded_name, header_cells,
+    Asked, Columns, Grid, Header, Quantity, Separator, Tables, TextError, decode, folded_name, header_cells,
     read_grid, shortened,
 };
 use std::path::Path;
@@ -100,10 +100,11 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         return points(grid, &columns, &said, notes);
     }
     refuse_profile(&grid, request.override_file)?;
-    if let Some(rows) = grid.rows_of_parts.filter(|_| !request.override_file) {
+    if let Some(Tables { count, size, are_beside }) = grid.parts.filter(|_| !request.override_file) {
+        let (lines, what) =
+            if are_beside { ("columns", "empty columns") } else { ("rows", "empty rows or notes") };
         let problem = format!(
-            "holds {} tables of {rows} rows, which empty lines or notes part: keep one in a file, or set override = true if they are one",
-            grid.rows() / rows
+            "holds {count} tables of {size} {lines}, which {what} part: keep one in a file, or set override = true if they are one"
         );
         return Err(TextError::new(grid.lines[0], problem).into());
     }
@@ -118,14 +119,19 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     let (spacing, doubt) = said.spacing([columns, rows], grid.empty_edges);
     notes.extend(said.notes(spacing.is_some()));
     notes.extend(doubt);
+    let spacing_error = if spacing.is_some() { 0.0 } else { axes.error() };
     let spacing = spacing.or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
+    notes.extend(axes.doubt.filter(|_| spacing == Spacing::Unknown));
     let height_unit = said.height_unit.or(axes.height_unit);
-    Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit, notes })
+    Ok(Measured { columns, rows, heights: grid.values, spacing, spacing_error, height_unit, notes })
 }
 
 /// Distance of the points by the places beside them.
 fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
-    let (x, y) = (axes.steps[0]?, axes.steps[1]?);
+    let (x, y) = (axes.steps[0]?.length, axes.steps[1]?.length);
+    if axes.doubt.is_some() {
+        return said.lateral_unit.map(|unit| Spacing::Metres([x * unit, y * unit]));
+    }
     Some(match axes.lateral_unit.or(said.lateral_unit) {
         Some(unit) => Spacing::Metres([x * unit, y * unit]),
         None => Spacing::HeightUnits([x, y]),
@@ -238,6 +244,7 @@ fn points(
         rows: placed.rows,
         heights: placed.heights,
         spacing,
+        spacing_error: placed.error,
         height_unit,
         notes,
     })

@@ -77,7 +77,7 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         notes.push("of its pages the first was read".into());
     }
     let (columns, rows) = (columns as usize, rows as usize);
-    Ok(Measured { columns, rows, heights, spacing, height_unit, notes })
+    Ok(Measured { columns, rows, heights, spacing, spacing_error: 0.0, height_unit, notes })
 }
 
 /// Bytes of the longest tag that is read.

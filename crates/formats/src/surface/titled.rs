@@ -87,6 +87,7 @@ fn zygo(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
         rows: placed.rows,
         heights: placed.heights,
         spacing,
+        spacing_error: placed.error,
         height_unit: Some(MICROMETRE),
         notes,
     })
@@ -151,7 +152,7 @@ fn wyko(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     let notes = vec![format!(
         "text of Wyko Vision: a line for each x, heights in {unit_said}, pixels from Pixel_size and Aspect"
     )];
-    Ok(Measured { columns, rows, heights, spacing, height_unit: Some(unit), notes })
+    Ok(Measured { columns, rows, heights, spacing, spacing_error: 0.0, height_unit: Some(unit), notes })
 }
 
 /// Surfer's text grid: numbers of nodes, ranges of x, y and z, then the heights, from the lowest y up, in
@@ -193,6 +194,7 @@ fn surfer(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
         rows: counts[1] as usize,
         heights,
         spacing: Spacing::HeightUnits([step(0)?, step(1)?]),
+        spacing_error: 0.0,
         height_unit: None,
         notes: vec!["text grid of Surfer, x and y taken in the unit of the heights".into()],
     })

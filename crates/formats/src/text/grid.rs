@@ -24,8 +24,19 @@ pub struct Grid<'t> {
     pub after: usize,
     /// True where columns, and rows, without a number stand at the edges: they may be of the map or not.
     pub empty_edges: [bool; 2],
-    /// Rows in each of several tables of equal size that empty lines or notes part.
-    pub rows_of_parts: Option<usize>,
+    /// Several tables of equal size that empty lines, rows or columns or notes part.
+    pub parts: Option<Tables>,
+}
+
+/// Tables of equal size in one file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tables {
+    /// Their number.
+    pub count: usize,
+    /// Rows of each, or columns.
+    pub size: usize,
+    /// True where they stand side by side.
+    pub are_beside: bool,
 }
 
 /// Bytes of text that one task reads.
@@ -74,10 +85,10 @@ pub fn read_grid(text: &str, missing: Option<f64>, decimal: Option<Decimal>) -> 
     }
     let corner = dialect.cells(first).next().unwrap_or("");
     let corner_is_empty = dialect.number(corner).is_none_or(f64::is_nan);
-    let rows_of_parts = equal_parts(breaks, values.len() / columns);
+    let parts = equal_tables(&values, columns, breaks);
     let empty_edges = [all_start_empty, has_empty_rows(&dialect, outside, columns)];
     let mut grid =
-        Grid { dialect, before, columns, values, lines, corner_is_empty, after, empty_edges, rows_of_parts };
+        Grid { dialect, before, columns, values, lines, corner_is_empty, after, empty_edges, parts };
     if all_end_empty && columns > 1 {
         // a separator at the end of every line makes no further column
         grid.drop_last_column();
@@ -204,13 +215,32 @@ fn refuse_lost_rows(
     Ok(())
 }
 
-/// Rows in each part of a table that `breaks` cut into several of equal size, above one row.
-fn equal_parts(mut breaks: Vec<usize>, rows: usize) -> Option<usize> {
-    breaks.retain(|at| (1..rows).contains(at));
+/// The tables into which `breaks` before rows, rows or columns without a number cut a grid: several of equal
+/// size, above one row or column.
+fn equal_tables(values: &[f64], columns: usize, breaks: Vec<usize>) -> Option<Tables> {
+    let rows = values.len() / columns;
+    let is_empty = |mut line: Box<dyn Iterator<Item = &f64> + '_>| line.all(|z| z.is_nan());
+    let empty_rows: Vec<usize> =
+        (0..rows).filter(|row| is_empty(Box::new(values[row * columns..][..columns].iter()))).collect();
+    let below = equal_parts(breaks, &empty_rows, rows);
+    let empty_columns: Vec<usize> =
+        (0..columns).filter(|column| is_empty(Box::new(values[*column..].iter().step_by(columns)))).collect();
+    let beside = equal_parts(Vec::new(), &empty_columns, columns);
+    let tables = |are_beside| move |[count, size]: [usize; 2]| Tables { count, size, are_beside };
+    below.map(tables(false)).or_else(|| beside.map(tables(true)))
+}
+
+/// Number and lines of the equal parts into which `breaks` and `empty` lines cut so many lines.
+fn equal_parts(breaks: Vec<usize>, empty: &[usize], lines: usize) -> Option<[usize; 2]> {
+    let full = lines - empty.len();
+    let before = |line: usize| line - empty.partition_point(|other| *other < line);
+    let mut breaks: Vec<usize> = breaks.iter().chain(empty).map(|line| before(*line)).collect();
+    breaks.sort_unstable();
+    breaks.retain(|at| (1..full).contains(at));
     breaks.dedup();
     let each = *breaks.first()?;
-    let all = breaks.iter().chain([&rows]).enumerate().all(|(i, at)| *at == (i + 1) * each);
-    (each > 1 && all).then_some(each)
+    let all = breaks.iter().chain([&full]).enumerate().all(|(i, at)| *at == (i + 1) * each);
+    (each > 1 && all).then_some([full / each, each])
 }
 
 /// Parts of a text that end with a line.

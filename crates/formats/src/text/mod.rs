@@ -12,7 +12,7 @@ mod series;
 
 pub use dialect::{Decimal, Dialect, Separator};
 pub use encoding::decode;
-pub use grid::{Grid, read_grid};
+pub use grid::{Grid, Tables, read_grid};
 pub use header::Asked;
 pub use heading::Quantity;
 pub use series::{Series, SeriesTable, read_series};

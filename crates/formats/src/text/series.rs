@@ -316,7 +316,12 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         }
     }
 
-    fn finish(self, text: &str) -> Result<SeriesTable<N>, TextError> {
+    fn finish(mut self, text: &str) -> Result<SeriesTable<N>, TextError> {
+        // a column of another number in each row counts rows, not tests
+        if self.series.len() > 2 && self.series.iter().all(|test| test.rows.len() == 1) {
+            let (rows, lines) = self.series.iter().map(|test| (test.rows[0], test.lines[0])).unzip();
+            self.series = vec![Series { label: "1".into(), rows, lines }];
+        }
         let [Some(first), Some(last)] = [self.series.first(), self.series.last()] else {
             return Err(self.nothing(text));
         };

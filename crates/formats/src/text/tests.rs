@@ -449,3 +449,33 @@ fn readings_that_are_none_are_not_taken() {
     let marked = curve(head, "", at(&[20], "99999\t99999"));
     assert_eq!(indentation::read(&marked, COLUMNS, Some(99999.0)).unwrap().series[0].rows.len(), 49);
 }
+
+/// Parts that begin where the one before ends are one test, however they stand; tests begin at the surface.
+#[test]
+fn parts_of_a_test_are_joined_and_tests_are_not() {
+    let loading: Vec<[f64; 2]> = (1..=9).map(|i| [10.0 * f64::from(i), 0.1 * f64::from(i * i)]).collect();
+    let way_back: Vec<[f64; 2]> = (0..9).map(|i| [90.0 - f64::from(i), 8.1 - 0.9 * f64::from(i)]).collect();
+    let lines = |rows: &[[f64; 2]], before: &str| -> String {
+        rows.iter().map(|[h, p]| format!("{before}{h}\t{p}\n")).collect()
+    };
+    let (head, names) = ("Depth (nm)\tLoad (mN)\n", ["Depth (nm)", "Load (mN)"].map(Some));
+    let blocks =
+        format!("[Loading]\n{head}{}[Unloading]\n{head}{}", lines(&loading, ""), lines(&way_back, ""));
+    let beside: String = std::iter::once(format!("L {0}\tL {1}\tU {0}\tU {1}\n", "depth (nm)", "force (mN)"))
+        .chain(
+            loading.iter().zip(&way_back).map(|(l, w)| format!("{}\t{}\t{}\t{}\n", l[0], l[1], w[0], w[1])),
+        )
+        .collect();
+    let runs = format!("Run\t{head}{}{}", lines(&loading, "1\t"), lines(&way_back, "2\t"));
+    let numbered: String = std::iter::once(format!("Sample\t{head}"))
+        .chain(loading.iter().chain(&way_back).enumerate().map(|(i, [h, p])| format!("{i}\t{h}\t{p}\n")))
+        .collect();
+    for text in [blocks, beside.replace("L ", "Loading ").replace("U ", "Unloading "), runs, numbered] {
+        let table = indentation::read(&text, [None; 2], None).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!(table.series.len(), 1, "{text}");
+        assert_eq!(table.series[0].rows.len(), 18, "{text}");
+        assert!((table.series[0].rows[9][0] - 90e-9).abs() < 1e-15, "{text}");
+    }
+    let two = format!("{head}{}{head}{}", lines(&loading, ""), lines(&loading, ""));
+    assert_eq!(indentation::read(&two, names, None).unwrap().series.len(), 2);
+}

@@ -321,7 +321,8 @@ impl SurfaceScene {
 
     /// Heights in metres, the units that came with them checked against those of the scene.
     fn in_metres(&self, measured: Measured) -> Result<HeightMap, SceneError> {
-        let same = |a: f64, b: f64| (a / b - 1.0).abs() <= 1e-4;
+        let same_to = |share: f64| move |a: f64, b: f64| (a / b - 1.0).abs() <= share;
+        let (same, same_step) = (same_to(1e-4), same_to(measured.spacing_error.max(1e-4)));
         let unit = match (measured.height_unit, &self.height_unit) {
             (Some(file), Some(scene)) if !same(file, scene.metres) && !self.override_file => {
                 let message = format!(
@@ -347,7 +348,7 @@ impl SurfaceScene {
             Spacing::HeightUnits(p) => Some(p.map(|v| v * unit)),
         };
         let pixel = match (said, self.pixel_size.map(|p| p.map(|l| l.0))) {
-            (Some([x, y]), Some([a, b])) if !(self.override_file || same(x, a) && same(y, b)) => {
+            (Some([x, y]), Some([a, b])) if !(self.override_file || same_step(x, a) && same_step(y, b)) => {
                 let [x, y, a, b] = [x, y, a, b].map(|side| rounded(side * 1e6, 7));
                 let message = format!(
                     "the file has pixels of {x} x {y} um, the scene says {a} x {b} um: remove pixel_size, or set \

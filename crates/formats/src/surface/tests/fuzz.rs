@@ -220,13 +220,32 @@ damaged! {
     damaged_xls_is_answered: "xls",
 }
 
+/// The beginnings of coverage-guided fuzzing (`verification/measure/fuzz`), to the folder that
+/// ASPERITY_FUZZ_SEEDS names, a folder a kind.
+#[test]
+#[ignore = "writes files"]
+fn seeds_of_fuzzing_are_written() {
+    let top = std::path::PathBuf::from(std::env::var_os("ASPERITY_FUZZ_SEEDS").unwrap());
+    let curves =
+        CURVES.iter().enumerate().map(|(i, curve)| (format!("made-{i}.csv"), curve.as_bytes().to_vec()));
+    let kinds = KINDS.iter().map(|kind| (*kind, samples(kind)));
+    for (kind, files) in kinds.chain([("curve", curves.collect())]) {
+        std::fs::create_dir_all(top.join(kind)).unwrap();
+        for (name, content) in files {
+            std::fs::write(top.join(kind).join(name), content).unwrap();
+        }
+    }
+}
+
+const CURVES: [&str; 2] =
+    ["depth_nm;force_mN\n0,1;2,5\n0,2;3,5\n", "# h P\nDepth (nm)\tLoad (µN)\n1\t2\n2\t4\n"];
+
 /// Curves go through the reader of series.
 #[test]
 fn damaged_curves_are_answered() {
-    let curves = ["depth_nm;force_mN\n0,1;2,5\n0,2;3,5\n", "# h P\nDepth (nm)\tLoad (µN)\n1\t2\n2\t4\n"];
     for count in 0..number("ASPERITY_FUZZ_FILES", 20_000) {
         let mut seed = Seeded(count);
-        let content = harmed(curves[seed.number_below(2)].as_bytes(), &mut seed);
+        let content = harmed(CURVES[seed.number_below(2)].as_bytes(), &mut seed);
         if let Ok((text, _)) = crate::text::decode(&content)
             && let Ok(table) = crate::indentation::read(&text, [None, None], None)
         {

@@ -305,5 +305,6 @@ mod containers;
 mod fuzz;
 mod instruments;
 mod scanning;
+mod tables;
 mod titled;
 mod words;

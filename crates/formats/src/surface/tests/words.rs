@@ -340,13 +340,20 @@ fn one_size_gives_square_pixels_or_none() {
 
 #[test]
 fn a_factor_beside_whole_numbers_is_refused_unless_forced() {
-    for words in ["Scale Data = 0.1", "Z scale: 0.1 nm/digit", "Height factor: 10", "Bit2nm = 0.3"] {
+    for (words, is_factor) in [
+        ("Scale Data = 0.1", true),
+        ("Z scale: 0.1 nm/digit", false),
+        ("Height factor: 10", true),
+        ("Bit2nm = 0.3", false),
+    ] {
         let text = format!("Pixel size: 1 um\nZ unit: nm\n{words}\n{MAP}");
         let refused = found("a.txt", &text).unwrap_err();
         assert!(refused.contains("line 3") && refused.contains("override = true"), "{refused}");
         let forced = Request { override_file: true, ..Request::default() };
         assert!(asked("a.txt", &text, &forced).is_ok());
-        assert!(found("a.txt", &text.replace("3\n", "3.5\n").replace("0.3.5", "0.3")).is_ok());
+        // fractions are no digits of a converter; a factor may go with them all the same
+        let fractions = found("a.txt", &text.replace("3\n", "3.5\n").replace("0.3.5", "0.3"));
+        assert_eq!(fractions.is_err(), is_factor, "{words}");
     }
     assert!(found("a.txt", &format!("Scale Data = 1\nUnit Data = nm\n{MAP}")).is_ok());
 }
