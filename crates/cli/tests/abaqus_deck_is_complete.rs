@@ -1,9 +1,9 @@
 //! Claim: `asperity mesh --format abaqus` writes the scene as a user of Abaqus writes it: a rigid tool with a
 //! reference node, a step for each direction in which an amplitude moves it along the schedule of the scene.
 //!
-//! Source: the keyword and element references of Abaqus 2024 (`*RIGID BODY`; RAX2, R2D2: the positive side lies to
-//! the left of the way from the first node to the second; `*AMPLITUDE`: four pairs to a line). Abaqus itself is not
-//! run: the numbers are those of the deck for CalculiX, which is.
+//! Source: the keyword and element references of Abaqus 2024 (`*RIGID BODY`; RAX2, R2D2: the positive side
+//! lies to the left of the way from the first node to the second; `*AMPLITUDE`: four pairs to a line). Abaqus
+//! itself is not run: the numbers are those of the deck for CalculiX, which is.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

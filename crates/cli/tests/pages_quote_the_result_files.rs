@@ -171,7 +171,7 @@ fn text_outside_quotations_holds_no_result() {
 /// --pages`.
 #[test]
 fn the_pages_of_notebooks_hold_their_cells() {
-    for name in ["a-scene-of-my-own", "the-paper-in-an-hour"] {
+    for name in ["a-scene-of-my-own", "the-paper-in-a-minute"] {
         let page = text(&format!("docs/src/tutorials/{name}.md"));
         let notebook: serde_json::Value =
             serde_json::from_str(&text(&format!("python/notebooks/{name}.ipynb"))).unwrap();

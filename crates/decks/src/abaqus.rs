@@ -1,5 +1,5 @@
-//! The parts of a deck that Abaqus has in a way of its own: a rigid tool with a reference node, and a step for
-//! each direction, in which an amplitude moves it.
+//! The parts of a deck that Abaqus has in a way of its own: a rigid tool with a reference node, and a step
+//! for each direction, in which an amplitude moves it.
 
 use super::deck::Deck;
 use super::write::number;
@@ -10,8 +10,8 @@ use std::io::{self, Write};
 const PAIRS: usize = 4;
 
 impl Deck {
-    /// The tool: rigid links along its outline, the surface `TOOL` on their lower side, and the node `REF` that
-    /// carries them.
+    /// The tool: rigid links along its outline, the surface `TOOL` on their lower side, and the node `REF`
+    /// that carries them.
     pub(super) fn rigid_tool(&self, out: &mut impl Write) -> io::Result<()> {
         let (nodes, cells) = (self.mesh.nodes.len(), self.mesh.cell_count());
         let count = self.outline.len();

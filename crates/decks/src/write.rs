@@ -104,7 +104,7 @@ impl Deck {
         if self.moving_share > 0.0 && self.phases.len() > 1 {
             writeln!(
                 out,
-                "** CalculiX 2.20 was seen to give up on the way back of a body that hardens kinematically."
+                "** CalculiX 2.20 was seen to give up in unloading a body that hardens kinematically."
             )?;
         }
         match self.reader {

@@ -11,7 +11,8 @@ const ROWS_OF_PLACES: usize = 8;
 const ROWS_BELOW_A_CORNER: usize = 3;
 /// The same where a unit of length stands in the corner.
 const ROWS_BELOW_A_UNIT: usize = 2;
-/// Largest distance of heights on a plane from their line, as a share of their step, rounded to whole numbers.
+/// Largest distance of heights on a plane from their line, as a share of their step, rounded to whole
+/// numbers.
 const SCATTER_OF_HEIGHTS: f64 = 1.0;
 /// Largest difference of slope of neighbouring lines on such a plane.
 const SAME_SLOPE: f64 = 0.3;

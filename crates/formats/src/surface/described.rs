@@ -213,8 +213,9 @@ impl Described {
         const HEIGHTS: [&str; 7] = ["z", "data", "height", "heights", "value", "values", "vertical"];
         let numbers = remark.numbers(self.decimal);
         let is_whole = |number: &&(f64, Option<String>)| number.0 >= 2.0 && number.0.fract() == 0.0;
-        // more of them in a line are places
-        if numbers.list.len() <= 3 {
+        // a line of many numbers holds places
+        const MOST_IN_WORDS: usize = 6;
+        if numbers.list.len() <= MOST_IN_WORDS {
             let whole = numbers.list.iter().filter(is_whole);
             self.whole.extend(whole.map(|(number, _)| (remark.line, *number as usize)));
         }
