@@ -74,6 +74,22 @@ impl Deck {
             100.0 * self.penetration,
             self.depth
         )?;
+        self.remarks(out)?;
+        match self.reader {
+            Reader::CalculiX => writeln!(
+                out,
+                "** Convergence in the load step is of first order in the ratio of successive depths in CalculiX: more steps\n\
+                 ** (numerics.steps) matter more than a finer mesh."
+            ),
+            Reader::Abaqus => writeln!(
+                out,
+                "** Each unit of time is an increment of the scene's own schedule; history is written at the end of each."
+            ),
+        }
+    }
+
+    /// How far the deck departs from the scene.
+    fn remarks(&self, out: &mut impl Write) -> io::Result<()> {
         if let Some(table) = self.table.as_ref().filter(|table| table.error > 0.0) {
             writeln!(
                 out,
@@ -107,17 +123,7 @@ impl Deck {
                 "** CalculiX 2.20 was seen to give up in unloading a body that hardens kinematically."
             )?;
         }
-        match self.reader {
-            Reader::CalculiX => writeln!(
-                out,
-                "** Convergence in the load step is of first order in the ratio of successive depths in CalculiX: more steps\n\
-                 ** (numerics.steps) matter more than a finer mesh."
-            ),
-            Reader::Abaqus => writeln!(
-                out,
-                "** Each unit of time is an increment of the scene's own schedule; history is written at the end of each."
-            ),
-        }
+        Ok(())
     }
 
     /// The tool: a row of linear elements over its outline, whose lower sides are the surface `TOOL`.
