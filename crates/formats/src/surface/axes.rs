@@ -115,6 +115,7 @@ impl Axes {
             self.doubt = Some(format!(
                 "line {line}: \"{corner}\" may be the unit of the places or of the heights: no size was taken from them"
             ));
+            return;
         }
         let (name, unit) = folded_name(corner);
         let Some(unit) = unit.and_then(|unit| Dimension::Length.scale(&unit)) else { return };

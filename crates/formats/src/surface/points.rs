@@ -63,14 +63,14 @@ pub(super) fn onto_grid(points: &[[f64; 3]]) -> Result<Placed, String> {
         }
         heights[node] = p[2];
     }
-    let rounding = [x.rounding, y.rounding].map(|r| if r < LARGEST_ROUNDING { r } else { 0.0 });
-    let [round_x, round_y] = rounding;
+    let [round_x, round_y] = [x.rounding, y.rounding].map(|r| if r < LARGEST_ROUNDING { r } else { 0.0 });
     // a place may miss by its rounding and by that of the ends
-    if farthest > (2.0 * round_x.max(round_y)).max(LARGEST_SCATTER) {
+    let limit = (2.0 * round_x.max(round_y)).max(LARGEST_SCATTER);
+    if farthest > limit {
         return Err(cloud(&format!(
             "a point is {:.0} % of a step away from its node, more than {:.0} %",
             100.0 * farthest,
-            100.0 * LARGEST_SCATTER
+            100.0 * limit
         )));
     }
     let share = |rounding: f64, count: usize| 2.0 * rounding / (count - 1).max(1) as f64;

@@ -129,13 +129,10 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
 /// Distance of the points by the places beside them.
 fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
     let (x, y) = (axes.steps[0]?.length, axes.steps[1]?.length);
-    if axes.doubt.is_some() {
-        return said.lateral_unit.map(|unit| Spacing::Metres([x * unit, y * unit]));
+    match axes.lateral_unit.or(said.lateral_unit) {
+        Some(unit) => Some(Spacing::Metres([x * unit, y * unit])),
+        None => axes.doubt.is_none().then_some(Spacing::HeightUnits([x, y])),
     }
-    Some(match axes.lateral_unit.or(said.lateral_unit) {
-        Some(unit) => Spacing::Metres([x * unit, y * unit]),
-        None => Spacing::HeightUnits([x, y]),
-    })
 }
 
 /// The columns of x, y and z where a header or the request names them.

@@ -219,12 +219,12 @@ fn refuse_lost_rows(
 /// size, above one row or column.
 fn equal_tables(values: &[f64], columns: usize, breaks: Vec<usize>) -> Option<Tables> {
     let rows = values.len() / columns;
-    let is_empty = |mut line: Box<dyn Iterator<Item = &f64> + '_>| line.all(|z| z.is_nan());
     let empty_rows: Vec<usize> =
-        (0..rows).filter(|row| is_empty(Box::new(values[row * columns..][..columns].iter()))).collect();
+        (0..rows).filter(|row| values[row * columns..][..columns].iter().all(|z| z.is_nan())).collect();
     let below = equal_parts(breaks, &empty_rows, rows);
-    let empty_columns: Vec<usize> =
-        (0..columns).filter(|column| is_empty(Box::new(values[*column..].iter().step_by(columns)))).collect();
+    let empty_columns: Vec<usize> = (0..columns)
+        .filter(|column| values.iter().skip(*column).step_by(columns).all(|z| z.is_nan()))
+        .collect();
     let beside = equal_parts(Vec::new(), &empty_columns, columns);
     let tables = |are_beside| move |[count, size]: [usize; 2]| Tables { count, size, are_beside };
     below.map(tables(false)).or_else(|| beside.map(tables(true)))
