@@ -9,8 +9,8 @@ const GAP_ERROR: f64 = 0.01;
 /// The same of a limit of pressure: that of metal that hardens follows the slope of the patches, which finer
 /// waves move.
 const LIMIT_ERROR: f64 = 0.05;
-/// The same of a stiffness, beside that of the area: a fixed set of pixels jumps as rims go from one to the
-/// next.
+/// The same of a stiffness, beside that of the area of the contact below the limit, which alone resists: a
+/// fixed set of pixels jumps as rims go from one to the next.
 const STIFFNESS_ERROR: f64 = 0.03;
 
 /// A quantity of a contact.
@@ -87,7 +87,8 @@ impl Quantity {
 
     /// Its relative error by the pixels.
     fn error(self, found: &Numbers) -> f64 {
-        let of_limit = LIMIT_ERROR * found.limited_share.unwrap_or(0.0);
+        let limited = found.limited_share.unwrap_or(0.0);
+        let of_limit = LIMIT_ERROR * limited;
         let area = found.area.filter(|area| area.corrected > 0.0);
         let of_area = area.map_or(0.0, |area| area.error / area.corrected);
         match self {
@@ -95,7 +96,7 @@ impl Quantity {
             Quantity::MeanGap => GAP_ERROR,
             Quantity::LeakX => found.leak_errors[0].unwrap_or(0.0),
             Quantity::LeakY => found.leak_errors[1].unwrap_or(0.0),
-            Quantity::Stiffness => of_area.hypot(STIFFNESS_ERROR),
+            Quantity::Stiffness => (of_area / (1.0 - limited)).hypot(STIFFNESS_ERROR),
             // nothing is above the limit
             Quantity::HighPressure if is_at_limit(found) => LIMIT_ERROR,
             Quantity::Area | Quantity::MeanPressure | Quantity::HighPressure => of_area.hypot(of_limit),
@@ -154,4 +155,24 @@ pub(super) fn verdicts(steps: &[Step], growth: Growth, has_rolloff: bool) -> Vec
         }));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    //! Claim: the stiffness of a contact that is nearly all at its limit is not known by the pixels. Source:
+    //! of one map at neighbouring cut-offs it scatters by a tenth where a hundredth of the contact is below
+    //! the limit, with an error of the area of 2 %.
+    use super::*;
+    use crate::half_space::Area;
+
+    #[test]
+    fn a_stiffness_of_a_hundredth_of_the_contact_is_left_open() {
+        let area = Area { ratio: 0.56, corrected: 0.55, error: 0.011, edges: 400 };
+        let of = |share: f64| {
+            let found = Numbers { area: Some(area), limited_share: Some(share), ..Numbers::default() };
+            Quantity::Stiffness.error(&found)
+        };
+        assert!(of(0.0) < 0.04 && of(0.5) < 0.06);
+        assert!(of(0.99) > 1.0);
+    }
 }
