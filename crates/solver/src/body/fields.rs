@@ -3,7 +3,9 @@
 use crate::body::discrete_body::Body;
 use crate::body::state::State;
 use crate::body::surface::Surface;
+use crate::contact::edge::GAUSS4;
 use crate::contact::parts::{NOTHING, WHOLE};
+use crate::contact::slip::Friction;
 use crate::element::kernel::POINTS;
 use crate::point::kinematic_hardening::yield_function;
 use crate::point::material::{hydrostatic, stress, volume_ratio};
@@ -169,7 +171,7 @@ fn values_at(body: &Body<'_>, state: &State, point: usize) -> Values {
 /// The nodes of the free surface, from its outer end inwards, with the `fields` there.
 fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<SurfacePoint> {
     let mut surface: Vec<SurfacePoint> = Vec::new();
-    let shear = shear_tractions(body, state);
+    let shear = shear_tractions(body, state, &fields.contact_pressure);
     for &edge in &body.mesh.sides.surface {
         // the edge runs counterclockwise around the body: from its outer to its inner corner
         let (corners, middle) = body.mesh.edge_nodes(edge);
@@ -197,27 +199,42 @@ fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<Surfac
     surface
 }
 
-/// Shear traction at the nodes, and whether the surface sticks there; `None` under a smooth tool.
-fn shear_tractions(body: &Body<'_>, state: &State) -> Option<Vec<(f64, bool)>> {
+/// Shear traction at the nodes under this current `pressure`, and whether the surface sticks there; `None`
+/// under a smooth tool.
+fn shear_tractions(body: &Body<'_>, state: &State, pressure: &[f64]) -> Option<Vec<(f64, bool)>> {
     let friction = body.contact.as_ref()?.friction?;
-    let mut shear = vec![(0.0, false); body.mesh.nodes.len()];
+    let mut shear = vec![0.0; body.mesh.nodes.len()];
+    let mut sticks = vec![false; body.mesh.nodes.len()];
     let surface = Surface::of_state(body, state);
-    for (edge, _) in surface.edges.iter().zip(surface.contact).filter(|(_, share)| share.parts != NOTHING) {
-        let x = edge.nodes.map(|node| state.position[node as usize]);
+    let traction = |i: usize, xi: f64| {
+        let edge = &surface.edges[i];
+        edge.shear_traction(state.penalty, &edge.nodes.map(|node| state.position[node as usize]), xi)
+    };
+    for (i, (edge, contact)) in surface.edges.iter().zip(surface.contact).enumerate() {
+        if contact.parts == NOTHING {
+            continue;
+        }
         for (node, xi) in edge.nodes.into_iter().zip([-1.0, 1.0, 0.0]).take(edge.node_count()) {
-            let (traction, pressure) =
-                (edge.shear_traction(state.penalty, &x, xi), surface.nodal_pressure(edge, xi));
-            shear[node as usize] = (traction, pressure > 0.0 && friction.sticks(traction, pressure));
+            let (own, pressure) = (traction(i, xi), surface.nodal_pressure(edge, xi));
+            shear[node as usize] = own;
+            sticks[node as usize] = pressure > 0.0 && friction.sticks(own, pressure);
         }
     }
-    Some(shear)
+    let line = |i: usize| {
+        let at = GAUSS4.map(|[xi, weight]| [0.5 * weight, 1.5 * weight * xi].map(|w| w * traction(i, xi)));
+        at.into_iter().fold([0.0; 2], |sum, part| [0, 1].map(|k| sum[k] + part[k]))
+    };
+    let limited = |((own, line), pressure): ((&f64, f64), &f64)| match friction {
+        // by symmetry, where it is none at a node itself
+        _ if *own == 0.0 => 0.0,
+        Friction::Coulomb(coefficient) => line.clamp(-coefficient * pressure, coefficient * pressure),
+        Friction::Sticking => line,
+    };
+    let lined = on_lines(&surface, shear.clone(), line);
+    Some(shear.iter().zip(lined).zip(pressure).map(limited).zip(sticks).collect())
 }
 
 /// Current pressure at the surface nodes: penalty times penetration, per current area.
-///
-/// Corners penetrate less than mid-side nodes: only the line through the pressure of an edge is accurate.
-/// Nodes of an edge that touches wholly, as its neighbours do, get that line, and a corner the mean of its
-/// two; beside the end of the contact the pressure falls too fast for a line.
 fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
     let mut pressure = vec![0.0; body.mesh.nodes.len()];
     let surface = Surface::of_state(body, state);
@@ -229,22 +246,34 @@ fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
             pressure[node as usize] = surface.nodal_pressure(edge, xi).max(0.0);
         }
     }
+    let pressure = on_lines(&surface, pressure, |i| surface.contact[i].line);
+    pressure.into_iter().map(|p| p.max(0.0)).collect()
+}
+
+/// The `values` of a traction at the nodes, where quadratic edges touch wholly on their `line`, mean and
+/// slope over ξ.
+///
+/// Corners move less under a traction than mid-side nodes: only the line through that of an edge is accurate.
+/// Nodes of an edge that touches wholly, as its neighbours do, get that line, and a corner the mean of its
+/// two; beside the end of the contact the traction falls too fast for a line.
+fn on_lines(surface: &Surface<'_>, mut values: Vec<f64>, line: impl Fn(usize) -> [f64; 2]) -> Vec<f64> {
     let whole: Vec<bool> = surface.contact.iter().map(|contact| contact.parts == WHOLE).collect();
     let inside = |i: usize| whole[i.saturating_sub(1)..whole.len().min(i + 2)].iter().all(|whole| *whole);
-    let mut lines = vec![[0.0; 2]; pressure.len()]; // sum and count
-    for (i, (edge, contact)) in surface.edges.iter().zip(surface.contact).enumerate() {
-        if edge.quadratic && inside(i) {
-            let [mean, slope] = contact.line;
-            for (node, value) in edge.nodes.into_iter().zip([mean - slope, mean + slope, mean]) {
-                let [sum, count] = &mut lines[node as usize];
-                (*sum, *count) = (*sum + value, *count + 1.0);
-            }
+    let mut lines = vec![[0.0; 2]; values.len()]; // sum and count
+    for (i, edge) in surface.edges.iter().enumerate().take(whole.len()) {
+        if !edge.quadratic || !inside(i) {
+            continue;
+        }
+        let [mean, slope] = line(i);
+        for (node, value) in edge.nodes.into_iter().zip([mean - slope, mean + slope, mean]) {
+            let [sum, count] = &mut lines[node as usize];
+            (*sum, *count) = (*sum + value, *count + 1.0);
         }
     }
-    for (pressure, [sum, count]) in pressure.iter_mut().zip(lines) {
+    for (value, [sum, count]) in values.iter_mut().zip(lines) {
         if count > 0.0 {
-            *pressure = (sum / count).max(0.0);
+            *value = sum / count;
         }
     }
-    pressure
+    values
 }

@@ -108,7 +108,7 @@ impl EdgeContact {
 }
 
 /// Integration points of an interval [-1, 1]: abscissa and weight.
-pub(super) const GAUSS4: [[f64; 2]; 4] = [
+pub(crate) const GAUSS4: [[f64; 2]; 4] = [
     [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
     [-0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
     [0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
