@@ -7,10 +7,20 @@ use serde::{Deserialize, Serialize};
 /// Separator of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
-    /// A character, with blanks about it or not.
+    /// A character, with blanks about it or not, and tabs about one that is none.
     Mark(char),
     /// Any number of blanks.
     Blanks,
+}
+
+impl Separator {
+    /// The text behind a separator from its first cell on: between other marks tabs are blanks.
+    fn begin(self, text: &str) -> &str {
+        match self {
+            Separator::Mark('\t') => text.trim_start_matches(' '),
+            _ => text.trim_start_matches([' ', '\t']),
+        }
+    }
 }
 
 /// Mark before decimals.
@@ -117,25 +127,11 @@ impl Dialect {
                 .into_iter()
                 .find(|mark| text.contains(*mark))
                 .map_or(Separator::Blanks, Separator::Mark),
-            _ => Dialect::separator_of(&looked_at),
+            _ => Dialect::separator_of(text, &looked_at),
         };
         let point = Dialect { separator, decimal: Decimal::Point };
+        point.refuse_cut(&looked_at)?;
         let mut doubtful = None;
-        if separator == Separator::Mark(',') {
-            let is_cut = |cell: &str| {
-                let digits = cell.trim_start_matches(['-', '+']);
-                digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|b| b.is_ascii_digit())
-            };
-            let cut = looked_at
-                .iter()
-                .find_map(|&(line, row)| Some((line, point.cells(row).find(|cell| is_cut(cell))?)));
-            if let Some((line, cell)) = cut {
-                let message = format!(
-                    "a decimal comma stands among commas between columns, as \"{cell}\" shows: part the columns by semicolons or tabs"
-                );
-                return Err(TextError::new(line, message));
-            }
-        }
         if let Some(decimal) = asked {
             if separator == Separator::Mark(',') && decimal == Decimal::Comma {
                 let message = "decimal = \"comma\" does not go with a file whose commas part the columns: remove the key, or part \
@@ -174,10 +170,48 @@ impl Dialect {
         }
     }
 
-    fn separator_of(rows: &[(usize, &str)]) -> Separator {
+    /// Refuses a decimal comma among commas between columns: `07552`, which one cut off, or `0,5,` before a
+    /// blank.
+    fn refuse_cut(&self, rows: &[(usize, &str)]) -> Result<(), TextError> {
+        let is_cut = |cell: &&str| {
+            let digits = cell.trim_start_matches(['-', '+']);
+            if self.separator == Separator::Mark(',') {
+                digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|b| b.is_ascii_digit())
+            } else {
+                digits.strip_suffix(',').is_some_and(|digits| digits.contains(','))
+            }
+        };
+        match rows.iter().find_map(|&(line, row)| Some((line, self.cells(row).find(is_cut)?))) {
+            None => Ok(()),
+            Some((line, cell)) => {
+                let message = format!(
+                    "a decimal comma stands among commas between columns, as \"{cell}\" shows: part the columns by semicolons or tabs"
+                );
+                Err(TextError::new(line, message))
+            }
+        }
+    }
+
+    fn separator_of(text: &str, rows: &[(usize, &str)]) -> Separator {
         let any = |test: &dyn Fn(&str) -> bool| rows.iter().any(|(_, row)| test(row));
-        if let Some(mark) = ['\t', ';'].into_iter().find(|mark| any(&|row| row.contains(*mark))) {
-            return Separator::Mark(mark);
+        let all = |test: &dyn Fn(&str) -> bool| rows.iter().all(|(_, row)| test(row));
+        // tabs behind other marks, or before them, only line columns up
+        let fits = |mark: char, row: &str| row.trim().split(mark).all(|cell| !cell.trim().contains('\t'));
+        let parts = |mark: char| any(&|row| row.contains(mark)) && all(&|row| fits(mark, row));
+        let is_padded =
+            |row: &str| row.split(',').skip(1).all(|rest| rest.is_empty() || rest.starts_with([' ', '\t']));
+        let is_behind = |row: &str| row.split('\t').skip(1).all(|rest| rest.starts_with(','));
+        if any(&|row| row.contains('\t')) && !parts(';') {
+            // ",2" behind a tab is 0,2 unless a comma stands before its name, too
+            let names = text.lines().take(rows[0].0 - 1).filter(|line| line.contains('\t')).last();
+            let is_comma = match names {
+                Some(names) => fits(',', names) && (all(&is_padded) || all(&is_behind)),
+                None => all(&is_padded),
+            };
+            return Separator::Mark(if parts(',') && is_comma { ',' } else { '\t' });
+        }
+        if any(&|row| row.contains(';')) {
+            return Separator::Mark(';');
         }
         if !any(&|row| row.contains(',')) {
             return Separator::Blanks;
@@ -193,8 +227,6 @@ impl Dialect {
                 .count()
                 > 1
         };
-        let is_padded =
-            |row: &str| row.split(',').skip(1).all(|rest| rest.is_empty() || rest.starts_with(' '));
         // 0,5 0,3 against 0.5, 0.3
         if any(&|row| has_words_apart(row) && !is_padded(row) && !row.contains('.')) {
             Separator::Blanks
@@ -206,9 +238,9 @@ impl Dialect {
     /// The cells of a line, without blanks and quotes about them.
     pub fn cells<'l>(&self, line: &'l str) -> Cells<'l> {
         let rest = match self.separator {
-            Separator::Blanks => line.trim(),
             // a tab at the end is an empty cell
-            Separator::Mark(_) => line.trim_matches([' ', '\r', '\n']),
+            Separator::Mark('\t') => line.trim_matches([' ', '\r', '\n']),
+            _ => line.trim(),
         };
         Cells { rest: Some(rest), separator: self.separator }
     }
@@ -339,7 +371,7 @@ impl<'l> Iterator for Cells<'l> {
         {
             let after = inside[end + 1..].trim_start_matches(' ');
             self.rest = match self.separator {
-                Separator::Mark(mark) => after.find(mark).map(|i| trim_start(&after[i + 1..])),
+                Separator::Mark(mark) => after.find(mark).map(|i| self.separator.begin(&after[i + 1..])),
                 Separator::Blanks => Some(after.trim_start()).filter(|after| !after.is_empty()),
             };
             return Some(inside[..end].trim());
@@ -354,13 +386,9 @@ impl<'l> Iterator for Cells<'l> {
                 (&rest[..end], Some(rest[end..].trim_start()).filter(|after| !after.is_empty()))
             }
         };
-        self.rest = after.map(trim_start);
+        self.rest = after.map(|after| self.separator.begin(after));
         Some(cell.trim())
     }
-}
-
-fn trim_start(text: &str) -> &str {
-    text.trim_start_matches(' ')
 }
 
 /// End of the first word; "No Data" is one.

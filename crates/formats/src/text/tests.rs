@@ -3,6 +3,8 @@
 use super::*;
 use crate::indentation;
 
+mod apart;
+
 const COLUMNS: [Option<&str>; 2] = [None; 2];
 
 fn is_near(a: f64, b: f64) -> bool {
