@@ -96,7 +96,7 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         notes.push("x, y, z from columns 1, 2, 3".into());
         let header = Header { line: 1, text: "", units: None };
         let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..named };
-        let columns = header.columns(&grid.dialect, columns, &POINT, &named)?;
+        let columns = header.columns(&grid.dialect, &grid.filled(), &POINT, &named, &[])?;
         return points(grid, &columns, &said, notes);
     }
     refuse_profile(&grid, request.override_file)?;
@@ -143,7 +143,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
         let text = text.trim_start_matches(['#', '%', '/', ' ']);
         if let Some(header) = Header::new(&grid.dialect, line, text, &POINT, named) {
             let header = Header { units, ..header };
-            return Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, named)?));
+            return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
         }
         units = Some(text);
     }
@@ -151,7 +151,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
         return Ok(None);
     }
     let header = Header { line: grid.lines[0], text: "", units: None };
-    Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, named)?))
+    Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?))
 }
 
 /// The columns of a header that calls the first two x and y, and the third by a name that z may have.
@@ -177,7 +177,7 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     let third = Asked { columns: [None, None, Some("3")], ..*named };
     let header = Header::new(&grid.dialect, line, text, &POINT, &third);
     match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down) {
-        Some(header) => Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, &third)?)),
+        Some(header) => Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, &third, &[])?)),
         None => {
             let names: Vec<String> =
                 cells.iter().take(3).map(|cell| format!("\"{}\"", shortened(cell))).collect();

@@ -104,6 +104,11 @@ impl Grid<'_> {
         self.values.len() / self.columns.max(1)
     }
 
+    /// True of each column that holds a number in the first row.
+    pub fn filled(&self) -> Vec<bool> {
+        self.values.iter().take(self.columns).map(|value| !value.is_nan()).collect()
+    }
+
     fn drop_last_column(&mut self) {
         let wide = self.columns;
         self.columns -= 1;

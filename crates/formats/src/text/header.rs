@@ -1,5 +1,6 @@
 //! The line that names columns, and the columns that are wanted of it.
 
+use super::declared_unit::DeclaredUnit;
 use super::dialect::{Decimal, Dialect, Separator};
 use super::heading::{Heading, Quantity, folded};
 use super::{TextError, shortened};
@@ -136,28 +137,24 @@ impl<'t> Header<'t> {
         (heads.len() >= N && (0..N).all(is_there)).then_some(Header { line, text, units: None })
     }
 
-    /// The wanted columns, above rows of `cells` cells.
+    /// The wanted columns, above rows whose cells hold numbers where `filled` says so, with the units that
+    /// lines before `declared`.
     ///
     /// # Errors
-    /// A column that is not there, or whose unit is missing or unknown.
+    /// A column that is not there, or whose unit is missing, unknown or another one than was declared.
     pub fn columns<const N: usize>(
         &self,
         dialect: &Dialect,
-        cells: usize,
+        filled: &[bool],
         wanted: &[Quantity; N],
         named: &Asked<'_, N>,
+        declared: &[DeclaredUnit],
     ) -> Result<Columns<N>, TextError> {
-        let mut heads: Vec<Heading> = if self.text.is_empty() {
-            (0..cells).map(|_| Heading::new("")).collect()
-        } else {
-            header_cells(dialect, self.text, Some(cells)).iter().map(|cell| Heading::new(cell)).collect()
-        };
-        let units = self.units.map(|units| header_cells(dialect, units, Some(cells))).unwrap_or_default();
-        for (head, unit) in
-            heads.iter_mut().zip(&units).filter(|(head, unit)| head.unit.is_none() && !unit.is_empty())
-        {
-            head.unit = Some(unit.trim_matches(['(', ')', '[', ']', '{', '}']).trim().into());
-        }
+        let cells_of = |text: &str| header_cells(dialect, text, Some(filled.len()));
+        let cells =
+            if self.text.is_empty() { vec![String::new(); filled.len()] } else { cells_of(self.text) };
+        let mut heads = Heading::list(&cells, &self.units.map(cells_of).unwrap_or_default(), filled);
+        self.declare(&mut heads, wanted, declared)?;
         let mut found: Vec<Vec<Pick>> = Vec::new();
         let mut said = Vec::new();
         for (i, quantity) in wanted.iter().enumerate() {
@@ -207,6 +204,44 @@ impl<'t> Header<'t> {
             test: heads.iter().position(|head| TESTS.contains(&head.name.as_str())),
             said: said.join(", "),
         })
+    }
+
+    /// Gives `heads` without a unit the one that was declared for their name; where none is called so, for a
+    /// name of their quantity, or the last words of theirs.
+    ///
+    /// # Errors
+    /// Heads that have another unit.
+    fn declare(
+        &self,
+        heads: &mut [Heading],
+        wanted: &[Quantity],
+        declared: &[DeclaredUnit],
+    ) -> Result<(), TextError> {
+        for DeclaredUnit { line, name, unit } in declared {
+            let is_named = heads.iter().any(|head| head.name == *name);
+            let quantity = wanted.iter().find(|quantity| quantity.called.contains(&name.as_str()));
+            let is_meant = |head: &&mut Heading| match quantity {
+                _ if is_named => head.name == *name,
+                Some(quantity) => head.rank(quantity).is_some(),
+                None => head.name.ends_with(&format!(" {name}")),
+            };
+            let mut others: Vec<String> = Vec::new();
+            let mut is_right = false;
+            for head in heads.iter_mut().filter(is_meant) {
+                let own = head.unit.get_or_insert_with(|| unit.clone());
+                let scale = |unit: &str| wanted.iter().find_map(|quantity| quantity.dimension.scale(unit));
+                match (scale(own), scale(unit)) {
+                    (Some(own), Some(given)) if (own / given - 1.0).abs() < 1e-9 => is_right = true,
+                    (Some(_), Some(_)) => others.push(format!("\"{}\" is in {own}", shortened(&head.text))),
+                    _ => {}
+                }
+            }
+            if let Some(other) = others.first().filter(|_| !is_right) {
+                let message = format!("{other}, but line {line} says {unit}: correct one of them");
+                return Err(TextError::new(self.line, message));
+            }
+        }
+        Ok(())
     }
 
     /// The columns whose names are nearest to those of `quantity`. One without a unit, like the error of a

@@ -157,6 +157,34 @@ impl Heading {
         Heading { text: text.into(), name: name.into(), unit }
     }
 
+    /// The head with the `unit` of another cell, in brackets or not, where it has none of its own.
+    fn in_unit(mut self, unit: Option<&String>) -> Heading {
+        let bare = unit.map(|unit| unit.trim_matches(['(', ')', '[', ']', '{', '}']).trim().to_string());
+        self.unit = self.unit.or(bare.filter(|unit| !unit.is_empty()));
+        self
+    }
+
+    /// The heads in `cells` above columns of which `filled` tells those that hold numbers, with the `units`
+    /// of a line below. A unit in a cell of its own belongs to the name before it: one beside every name
+    /// above half as many columns, or one above a column without numbers.
+    pub fn list(cells: &[String], units: &[String], filled: &[bool]) -> Vec<Heading> {
+        let last = |is_used: &dyn Fn(usize) -> bool, count| (0..count).rev().find(|i| is_used(*i));
+        let width = last(&|i| !cells[i].is_empty(), cells.len()).map_or(0, |last| last + 1);
+        let columns = last(&|i| filled[i], filled.len()).map_or(0, |last| last + 1);
+        let beside = |i: usize| cells.get(i + 1).filter(|unit| is_unit(unit));
+        let are_pairs = [columns, filled.len()].contains(&width.div_ceil(2))
+            && (0..width).step_by(2).any(|i| beside(i).is_some())
+            && (1..width).step_by(2).all(|i| beside(i).is_none());
+        let heads: Vec<Heading> = if are_pairs {
+            cells[..width].chunks(2).map(|pair| Heading::new(&pair[0]).in_unit(pair.get(1))).collect()
+        } else {
+            let is_empty = |i: usize| filled.get(i + 1) == Some(&false);
+            let own = |i: usize| beside(i).filter(|_| is_empty(i));
+            cells.iter().enumerate().map(|(i, cell)| Heading::new(cell).in_unit(own(i))).collect()
+        };
+        heads.into_iter().enumerate().map(|(i, head)| head.in_unit(units.get(i))).collect()
+    }
+
     /// Rank of the name as one of `quantity`: 0 best.
     pub fn rank(&self, quantity: &Quantity) -> Option<u8> {
         let doubt = self.doubt(quantity).map_or(0, |_| RANK_OF_DOUBT);

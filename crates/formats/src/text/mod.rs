@@ -3,6 +3,7 @@
 //! In order: characters ([`decode`]), cells and numbers ([`Dialect`]), names and units of columns
 //! ([`Quantity`]), numbers under names ([`read_series`]), rows of numbers ([`read_grid`]).
 
+mod declared_unit;
 mod dialect;
 mod encoding;
 mod grid;

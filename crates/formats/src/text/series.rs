@@ -1,5 +1,6 @@
 //! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
 
+use super::declared_unit::DeclaredUnit;
 use super::dialect::{Dialect, Separator, is_comment, is_row};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit};
@@ -83,6 +84,8 @@ struct Reader<'q, 't, const N: usize> {
     skipped: usize,
     /// The last line of words before a header.
     words: Option<(usize, &'t str)>,
+    /// Units that lines above the rows declare.
+    declared: Vec<DeclaredUnit>,
     /// Columns that were understood first.
     said: String,
     scales: [f64; N],
@@ -110,6 +113,7 @@ pub fn read_series<const N: usize>(
         series,
         skipped: 0,
         words: None,
+        declared: Vec::new(),
         said,
         scales: [1.0; N],
         names: std::array::from_fn(|_| String::new()),
@@ -126,6 +130,9 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
     fn take(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
         let bare = text.trim();
         if bare.is_empty() {
+            return Ok(());
+        }
+        if self.declares(line, bare) {
             return Ok(());
         }
         if is_comment(bare) && !self.are_units(bare) {
@@ -171,6 +178,16 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             return Ok(());
         }
         self.row(line, text)
+    }
+
+    /// Keeps the units that a line above the rows declares; true where it names no columns.
+    fn declares(&mut self, line: usize, bare: &str) -> bool {
+        let is_above = self.block.as_ref().is_none_or(|block| block.columns.is_none());
+        let declared = if is_above { DeclaredUnit::list(line, bare) } else { Vec::new() };
+        let is_one = !declared.is_empty();
+        self.declared.extend(declared);
+        let names = || Header::new(&self.dialect, line, bare, self.wanted, self.named);
+        is_one && (bare.contains([':', '=']) || names().is_none())
     }
 
     /// True of a line below a header that holds units alone: "%;MPa" is no comment.
@@ -229,10 +246,11 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             return Ok(());
         };
         let row: Vec<&str> = self.dialect.cells(text).collect();
-        let has_number = || row.iter().any(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()));
+        let is_number = |cell: &str| self.dialect.number(cell).is_some_and(|v| !v.is_nan());
         let columns = match columns {
-            None if has_number() => {
-                Some(header.columns(&self.dialect, row.len(), self.wanted, self.named)?)
+            None if row.iter().any(|cell| is_number(cell)) => {
+                let filled: Vec<bool> = row.iter().map(|cell| is_number(cell)).collect();
+                Some(header.columns(&self.dialect, &filled, self.wanted, self.named, &self.declared)?)
             }
             known => known,
         };
@@ -322,18 +340,17 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             let (rows, lines) = self.series.iter().map(|test| (test.rows[0], test.lines[0])).unzip();
             self.series = vec![Series { label: "1".into(), rows, lines }];
         }
-        let [Some(first), Some(last)] = [self.series.first(), self.series.last()] else {
+        let lines = || self.series.iter().flat_map(|series| &series.lines);
+        let (Some(first), Some(last)) = (lines().min(), lines().max()) else {
             return Err(self.nothing(text));
         };
         let count: usize = self.series.iter().map(|s| s.rows.len()).sum();
         let plural = |n: usize, what: &str| if n > 1 { format!("{what} {n}") } else { String::new() };
         let understood = format!(
-            "{}; {}; {count} rows{}, lines {} to {}{}",
+            "{}; {}; {count} rows{}, lines {first} to {last}{}",
             self.said,
             self.dialect.describe(),
             plural(self.series.len(), ", tests"),
-            first.lines[0],
-            last.lines[last.lines.len() - 1],
             if self.skipped > 0 { format!(", {} others left out", self.skipped) } else { String::new() }
         );
         let (scales, names, have_units) = (self.scales, self.names, self.have_units);

@@ -41,3 +41,79 @@ fn tabs_part_columns_where_other_marks_stand_within_them() {
     let fault = read_grid("1,234,\t5\n6,789,\t5\n", None, None).unwrap_err();
     assert!(fault.message.contains("\"1,234,\""), "{fault}");
 }
+
+/// As spreadsheets hold a quantity beside its unit, and loggers write both.
+#[test]
+fn a_unit_in_a_cell_of_its_own_belongs_to_the_name_before_it() {
+    for text in [
+        "Depth,nm,Load,mN\n100,2\n200,8\n",
+        "Depth,(nm),Load,[mN],\n100,2,\n200,8,\n",
+        "Time,s,Depth,nm,Load,mN\n0,100,2\n1,200,8\n",
+        "Index,,Depth,nm,Load,mN,Cycle\n1,100,2,1\n2,200,8,1\n",
+        "Depth\tnm\tLoad\tmN\n100\t2\n200\t8\n",
+        "Depth nm Load mN\n100 2\n200 8\n",
+        "Weg;nm;Kraft;mN\n100,0;2\n200,0;8\n",
+        // cells that span two columns, and rows that say the unit again
+        "Depth,nm,Load,mN\n100,,2,\n200,,8,\n",
+        "Depth,nm,Load,mN\n100,nm,2,mN\n200,nm,8,mN\n",
+    ] {
+        is_the_curve(text, COLUMNS);
+    }
+    // a column of numbers is none of units
+    for text in ["Depth,m,Load,N\n100,5,2,7\n", "nm,Depth,mN,Load\n100,2\n", "Depth,Load,Time,Cycle\n100,2\n"]
+    {
+        let fault = indentation::read(text, COLUMNS, None).unwrap_err();
+        assert!(fault.line == Some(1) && fault.message.contains("has no unit"), "{text} {fault}");
+    }
+}
+
+/// Headers of loggers: names alone above the columns, their units among the words before.
+#[test]
+fn units_in_the_words_before_a_table_are_those_of_its_columns() {
+    for words in [
+        "Depth unit: nm\nLoad unit: mN\n",
+        "Depth Units = nm\nLoad Units = mN\n",
+        "Displacement [unit]: nm\nForce (unit) mN\n",
+        "Unit of depth: nm\nUnit of the load: mN\n",
+        "Einheit der Eindringtiefe: nm\nEinheit Kraft: mN\n",
+        "# depth_unit: nm\n# load_unit: milli Newton\n",
+        "Depth unit,nm\nLoad unit,mN\n",
+        "Depth unit: nm; Load unit: mN\n",
+        "# Depth unit: nm, load unit: mN\n",
+    ] {
+        for head in ["Depth,Load", "Indentation depth,Normal load", "Time,Depth,Load"] {
+            let time = if head.starts_with("Time") { "0," } else { "" };
+            is_the_curve(&format!("Test 7\n{words}\n{head}\n{time}100,2\n{time}200,8\n"), COLUMNS);
+        }
+        is_the_curve(&format!("{words}Depth\tLoad\n100,0\t2,0\n200,0\t8,0\n"), COLUMNS);
+        is_the_curve(&format!("Depth Load\n{words}100 2\n200 8\n"), COLUMNS);
+    }
+    // each column its own
+    is_the_curve("Piezo unit: um\nDepth unit: nm\nPiezo,Depth,Load (mN)\n9,100,2\n9,200,8\n", COLUMNS);
+    is_the_curve(
+        "Displacement unit: um\nDepth (nm),Displacement,Load (mN)\n100,9,2\n200,9,8\n",
+        ["Depth (nm)", "Load (mN)"].map(Some),
+    );
+    let said =
+        indentation::read("Depth unit: nm\nDepth,Load (mN)\n100,2\n", COLUMNS, None).unwrap().understood;
+    assert!(said.starts_with("depth from \"Depth\" in nm, force from \"Load (mN)\";"), "{said}");
+}
+
+#[test]
+fn a_unit_before_a_table_that_contradicts_its_column_is_refused_with_both() {
+    for (text, words) in [
+        ("Depth unit: um\nDepth (nm),Load (mN)\n100,2\n", "\"Depth (nm)\" is in nm, but line 1 says um"),
+        ("Depth unit: um\nDepth,Load\nnm,mN\n100,2\n", "\"Depth\" is in nm, but line 1 says um"),
+        ("Displacement unit: mm\nLoad unit: N\nDepth (nm),Load (N)\n100,2\n", "is in nm, but line 1 says mm"),
+        ("Depth unit: nm\nDepth unit: um\nDepth,Load (mN)\n100,2\n", "is in nm, but line 2 says um"),
+        ("Depth unit: mN\nDepth,Load (mN)\n100,2\n", "the unit \"mN\", which is not known"),
+        ("Depth unit: furlong\nDepth,Load (mN)\n100,2\n", "has no unit"),
+    ] {
+        let fault = indentation::read(text, COLUMNS, None).unwrap_err();
+        assert!(fault.message.contains(words), "{text} {fault}");
+    }
+    // the same unit, and a unit of one of two columns
+    is_the_curve("Depth unit: µm\nDepth (um),Load (mN)\n0.1,2\n0.2,8\n", COLUMNS);
+    let two = "Load unit: mN\nDepth (nm),Load (N),Load (mN)\n100,0.002,2\n200,0.008,8\n";
+    is_the_curve(two, [Some("Depth (nm)"), Some("Load (mN)")]);
+}
