@@ -98,17 +98,38 @@ impl Sheet {
         Ok(())
     }
 
+    /// The first column of the rows with numbers, not counting words and numbers above them that stand
+    /// further left; where one of these lines goes on above the numbers as a heading does, the first of all.
+    fn first_column(&self) -> u32 {
+        let mut numbers: BTreeMap<u32, usize> = BTreeMap::new();
+        for (column, _) in self.rows.values().flatten().filter(|(_, cell)| is_number(cell)) {
+            *numbers.entry(*column).or_default() += 1;
+        }
+        let most = numbers.values().max().copied().unwrap_or(0);
+        let full = numbers.iter().find(|(_, count)| 2 * **count >= most).map_or(0, |(column, _)| *column);
+        let is_row = |row: &&BTreeMap<u32, String>| row.range(full..).any(|(_, cell)| is_number(cell));
+        let begin = |row: &BTreeMap<u32, String>| row.keys().next().copied();
+        let first = self.rows.values().filter(is_row).filter_map(begin).min().unwrap_or(0);
+        let is_heading = |row: &BTreeMap<u32, String>| {
+            begin(row).is_some_and(|column| column < first) && row.range(first..).nth(1).is_some()
+        };
+        if self.rows.values().any(is_heading) {
+            return self.rows.values().filter_map(begin).min().unwrap_or(0);
+        }
+        first
+    }
+
     /// Rows up to the last column with a number, so that empty cells of a map stay.
     fn text(&self) -> String {
         let columns = || self.rows.values().flat_map(|row| row.iter());
-        let first = columns().map(|(column, _)| *column).min().unwrap_or(0);
+        let first = self.first_column();
         let last =
             columns().filter(|(_, cell)| is_number(cell)).map(|(column, _)| *column).max().unwrap_or(0);
         let mut out = String::new();
-        let mut line = self.rows.keys().next().copied().unwrap_or(0);
+        let mut line = 0;
         let mut had_number = false;
         for (place, row) in &self.rows {
-            let has_number = row.values().any(|cell| is_number(cell));
+            let has_number = row.range(first..).any(|(_, cell)| is_number(cell));
             // lines of the text are those of the sheet; rows without a cell between numbers are missing ones
             for before in line..*place {
                 out.push('\n');
@@ -119,8 +140,9 @@ impl Sheet {
             (line, had_number) = (*place, has_number);
             let end = last.max(row.keys().next_back().copied().unwrap_or(0));
             let end = if has_number { end } else { row.keys().next_back().copied().unwrap_or(0) };
-            for column in first..=end {
-                if column > first {
+            let begin = row.keys().next().map_or(first, |own| first.min(*own));
+            for column in begin..=end {
+                if column > begin {
                     out.push('\t');
                 }
                 out.push_str(row.get(&column).map_or("", String::as_str));
@@ -166,6 +188,9 @@ fn too_many() -> String {
 
 fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|e| refused(&e))?;
+    if archive.by_name("content.xml").is_ok() {
+        return Err("is a document of LibreOffice or OpenOffice (.ods), which is not read: save the sheet as .xlsx or CSV".into());
+    }
     // a bomb is known by unpacking it once, without keeping anything
     let limit = crate::memory::default_limit() / 4;
     let mut unpacked = 0;
@@ -319,6 +344,48 @@ mod tests {
             format!(r#"<styleSheet xmlns="{main}">{format}<cellXfs>{styles}</cellXfs></styleSheet>"#);
         member("xl/styles.xml", &styles);
         archive.finish().unwrap().into_inner()
+    }
+
+    /// Rows of cells by their places, such as `B3`; words stand as they are, numbers too.
+    fn placed(cells: &[(&str, &str)]) -> String {
+        let row = |place: &str| place.trim_start_matches(|c: char| c.is_alphabetic()).to_string();
+        let cell = |(place, value): &(&str, &str)| {
+            let kind = if value.parse::<f64>().is_ok() { "n" } else { "str" };
+            format!(r#"<row r="{}"><c r="{place}" t="{kind}"><v>{value}</v></c></row>"#, row(place))
+        };
+        cells.iter().map(cell).collect()
+    }
+
+    /// Titles stand in the corner of a sheet, the table where there was room.
+    #[test]
+    fn rows_and_columns_before_a_table_are_none_of_it() {
+        let table = [("C4", "1"), ("D4", "2"), ("D5", "4"), ("C6", "5"), ("D6", "6")];
+        let map = "\n1.0\t2.0\n\t4.0\n5.0\t6.0\n";
+        for (before, want) in [
+            (&[][..], "\n\n"),
+            (&[("A1", "Map 7"), ("A2", "pixel size"), ("B2", "1 um")], "Map 7\npixel size\t1 um\n"),
+            (&[("B1", "pixel size (um)"), ("B2", "3")], "pixel size (um)\n3.0\n"),
+            (&[("A1", "Map 7"), ("D1", "by hand")], "Map 7\t\t\tby hand\n\n"),
+            (&[("C2", "a"), ("D2", "b")], "\na\tb\n"),
+        ] {
+            let (text, _) = text(&book(&[("a", &placed(&[before, &table[..]].concat()))])).unwrap();
+            assert_eq!(text, format!("{want}{map}"), "{before:?}");
+        }
+        // names of columns stay above their numbers, beside a label too
+        let (text, _) = text(&book(&[(
+            "a",
+            &placed(&[("A3", "x"), ("C3", "a"), ("D3", "b"), ("C4", "1"), ("D4", "2")]),
+        )]))
+        .unwrap();
+        assert_eq!(text, "\n\nx\t\ta\tb\n\t\t1.0\t2.0\n");
+    }
+
+    #[test]
+    fn a_sheet_of_libreoffice_is_answered_with_a_way_out() {
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        archive.start_file("content.xml", zip::write::SimpleFileOptions::default()).unwrap();
+        let refused = text(&archive.finish().unwrap().into_inner()).unwrap_err();
+        assert!(refused.message.contains(".ods") && refused.message.contains(".xlsx or CSV"), "{refused}");
     }
 
     #[test]
