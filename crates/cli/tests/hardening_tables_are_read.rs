@@ -40,12 +40,34 @@ fn the_summary_holds_the_table_and_gives_the_same_bits() {
     assert_eq!(place.text("file/curve.csv"), place.text("inline/curve.csv"));
 }
 
+/// The same points as above, counted as a tension test counts them.
+#[test]
+fn total_strain_gives_the_points_of_plastic_strain_and_says_so() {
+    let modulus = 210e3;
+    let row = |plastic: f64, stress: f64| format!("{},{stress}\n", plastic + stress / modulus);
+    let elastic = row(0.0, 0.0) + &row(0.0, 150.0);
+    let flow = row(0.0, 300.0) + &row(0.01, 420.0) + &row(0.3, 910.0);
+    let place = place(&format!("total_strain,true_stress_MPa\n{elastic}{flow}"));
+    let end = place.run(&["crush", "scene.toml", "--out", "out"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let said = "first yield in line 4 at 300 MPa, 2 before it left out";
+    assert!(end.out.contains(said) || end.err.contains(said), "{}{}", end.out, end.err);
+    let summary: serde_json::Value = serde_json::from_str(&place.text("out/summary.json")).unwrap();
+    let table = summary["scene"]["material"]["hardening_table"].as_array().unwrap();
+    let strains: Vec<f64> = table.iter().map(|point| point[0].as_f64().unwrap()).collect();
+    assert_eq!((strains.len(), strains[0]), (3, 0.0), "{strains:?}");
+    assert!((strains[1] - 0.01).abs() < 1e-15 && (strains[2] - 0.3).abs() < 1e-15, "{strains:?}");
+}
+
 #[test]
 fn a_wrong_table_is_refused_at_its_line() {
     let head = "plastic_strain,yield_stress_MPa\n";
     for (table, words) in [
         ("", &["scene.toml:7:", "curve.csv: is empty", "plastic_strain,yield_stress_MPa"][..]),
-        ("strain,stress\n0,300\n", &["curve.csv:1:", "no header that names a plastic strain"]),
+        ("strength,stress\n0,300\n", &["curve.csv:1:", "no header that names a plastic strain"]),
+        ("strain,stress_MPa\n0,300\n", &["curve.csv:1:", "plastic_strain", "total_strain"]),
+        ("total_strain,stress_MPa\n0,0\n0.01,300\n", &["curve.csv:3:", "Young's modulus, ", "elastic line"]),
+        ("Nenndehnung,Nennspannung (MPa)\n0,0\n", &["curve.csv:1:", "ln(1 + ε)"]),
         ("plastic_strain,yield_stress\n0,300\n", &["curve.csv:1:", "has no unit", "MPa, GPa"]),
         (&format!("{head}0,300\n0.1;400\n"), &["curve.csv:1:", "no header"]),
         (&format!("{head}0,x\n"), &["curve.csv:2:", "\"x\" is not a number"]),

@@ -8,11 +8,14 @@
 //! 0.01,412.5
 //! ```
 //! Columns may change places, stand among others and be written as the reader of tables knows; the heads may
-//! be those of other languages.
+//! be those of other languages. A column of `total_strain` in place of the plastic one is made that with
+//! Young's modulus.
 
 use crate::hardening_table::HardeningTable;
+use crate::total_strain::{NoYield, is_elastic, plastic_points};
 use asperity_formats::dimension::Dimension;
-use asperity_formats::text::{Asked, Quantity, Series, TextError, read_series};
+use asperity_formats::text::{Asked, Quantity, Series, SeriesTable, TextError, header_line, read_series};
+use asperity_formats::units::Stress;
 
 /// A curve that was read, with the line of each point.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,53 @@ const STRAIN: Quantity = Quantity {
     example: "plastic_strain",
 };
 
+/// Total strain by a name that says so.
+const TOTAL: Quantity = Quantity {
+    name: "total strain",
+    called: &[
+        "total strain",
+        "true total strain",
+        "total true strain",
+        "gesamtdehnung",
+        "totaldehnung",
+        "wahre gesamtdehnung",
+        "deformation totale",
+        "deformazione totale",
+        "deformacion total",
+        "eps total",
+        "eps tot",
+        "epsilon total",
+        "ε total",
+        "ε tot",
+    ],
+    example: "total_strain",
+    ..STRAIN
+};
+
+/// Strain by a name that leaves open which.
+const SOME: Quantity = Quantity {
+    name: "strain",
+    called: &[
+        "strain",
+        "true strain",
+        "logarithmic strain",
+        "dehnung",
+        "wahre dehnung",
+        "logarithmische dehnung",
+        "deformation",
+        "deformation vraie",
+        "deformazione",
+        "deformazione reale",
+        "deformacion",
+        "deformacion verdadera",
+        "eps",
+        "epsilon",
+        "ε",
+    ],
+    example: "plastic_strain",
+    ..STRAIN
+};
+
 /// Yield stress at it.
 const STRESS: Quantity = Quantity {
     name: "yield stress",
@@ -79,41 +129,126 @@ const STRESS: Quantity = Quantity {
     example: "yield_stress_MPa",
 };
 
-impl CurveFile {
-    /// Reads `text`.
-    ///
-    /// # Errors
-    /// No header, a column that is not there or has no unit, a line that is not numbers, or points that are
-    /// no curve of hardening (see [`HardeningTable::new`]); each with its line.
-    pub fn parse(text: &str) -> Result<CurveFile, TextError> {
+/// The columns of a file as they stand there.
+struct Columns {
+    file: CurveFile,
+    /// Name of the column of strain.
+    name: String,
+    /// Pa of one unit of stress.
+    unit: f64,
+}
+
+impl Columns {
+    /// Reads the columns of this `strain` and of stress.
+    fn new(text: &str, strain: Quantity) -> Result<Columns, TextError> {
         let named = Asked { needs_all: true, ..Asked::default() };
-        let mut table = read_series(text, &[STRAIN, STRESS], &named)?;
-        let Series { rows: points, lines, .. } = table.series.swap_remove(0);
-        if let Some(second) = table.series.first() {
+        let table = read_series(text, &[strain, STRESS], &named)?;
+        let SeriesTable { mut series, scales, names: [name, _], have_units, understood } = table;
+        let Series { rows: points, lines, .. } = series.swap_remove(0);
+        if let Some(second) = series.first() {
             return Err(TextError::new(second.lines[0], "begins a second curve: keep one in a file"));
         }
-        let largest = points.iter().zip(&lines).find(|(p, _)| p[0] > LARGEST_STRAIN && !table.have_units[0]);
+        let largest = points.iter().zip(&lines).find(|(p, _)| p[0] > LARGEST_STRAIN && !have_units[0]);
         if let Some((p, line)) = largest {
+            let (kind, key) = (strain.name, strain.example);
             let message = format!(
-                "is a plastic strain of {}, {} %, if \"{}\" has no unit: write plastic_strain_% above percent, and plastic_strain [1] \
-                 above true strains as large as that",
+                "is a {kind} of {}, {} %, if \"{name}\" has no unit: write {key}_% above percent, and {key} [1] above true strains as \
+                 large as that",
                 p[0],
-                100.0 * p[0],
-                table.names[0]
+                100.0 * p[0]
             );
             return Err(TextError::new(*line, message));
         }
+        Ok(Columns { file: CurveFile { points, lines, understood }, name, unit: scales[1] })
+    }
+
+    /// The curve, if its points are one of hardening.
+    fn checked(self) -> Result<CurveFile, TextError> {
         // in the unit of the file, so that the sentence says what the reader sees
-        let shown: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1] / table.scales[1]]).collect();
-        HardeningTable::new(&shown)
-            .map_err(|e| TextError { line: e.point.map(|point| lines[point]), message: e.message })?;
-        Ok(CurveFile { points, lines, understood: table.understood })
+        let shown: Vec<[f64; 2]> = self.file.points.iter().map(|p| [p[0], p[1] / self.unit]).collect();
+        HardeningTable::new(&shown).map_err(|e| TextError {
+            line: e.point.map(|point| self.file.lines[point]),
+            message: e.message,
+        })?;
+        Ok(self.file)
+    }
+
+    /// The columns with plastic strain in the place of the total one, from first yield on.
+    fn made_plastic(mut self, youngs_modulus: f64) -> Result<Columns, TextError> {
+        let modulus = Stress(youngs_modulus).in_unit("GPa");
+        let CurveFile { points, lines, understood } = &mut self.file;
+        let (first, plastic) = plastic_points(points, youngs_modulus).map_err(|no_yield| {
+            let (point, message) = match no_yield {
+                NoYield::OffTheLine(point) => {
+                    let [strain, stress] = points[point];
+                    let message = format!(
+                        "has a total strain of {strain}, but Young's modulus, {modulus} GPa, gives {:.4e} for its stress: total strain begins \
+                         on the elastic line, without the slack of grips and machine; correct it, or youngs_modulus, or call it \
+                         plastic_strain if it is that",
+                        stress / youngs_modulus
+                    );
+                    (point, message)
+                }
+                NoYield::NeverLeaves(point) => {
+                    (point, "still lies on the elastic line, and no row follows: nothing tells the first yield".into())
+                }
+            };
+            TextError::new(lines[point], message)
+        })?;
+        lines.drain(..first);
+        *points = plastic;
+        let left_out = if first > 0 { format!(", {first} before it left out") } else { String::new() };
+        *understood += &format!(
+            "; plastic strain is the total one less stress over Young's modulus, {modulus} GPa: first yield in line {} at {} MPa{left_out}",
+            lines[0],
+            Stress(points[0][1]).in_unit("MPa")
+        );
+        Ok(self)
+    }
+
+    /// The reason why a strain by a name that leaves open which is not taken.
+    fn doubt(&self, youngs_modulus: f64) -> String {
+        let loaded = self.file.points.iter().find(|point| point[1] > 0.0);
+        let why = if self.file.points[0] == [0.0, 0.0] {
+            ", and 0 under no stress is no first yield"
+        } else if loaded.is_some_and(|point| is_elastic(*point, youngs_modulus)) {
+            ", and the first row lies on the elastic line"
+        } else {
+            ""
+        };
+        format!(
+            "\"{}\" may be plastic strain or total strain{why}: call it plastic_strain and give that, from 0 at first yield, or call \
+             it total_strain, of which stress over Young's modulus is subtracted",
+            self.name
+        )
+    }
+}
+
+impl CurveFile {
+    /// Reads `text` of a metal of this Young's modulus in Pa.
+    ///
+    /// # Errors
+    /// No header, a column that is not there or has no unit, a strain of which nothing tells whether it is
+    /// plastic or total, a line that is not numbers, total strains that do not begin on the elastic line, or
+    /// points that are no curve of hardening (see [`HardeningTable::new`]); each with its line.
+    pub fn parse(text: &str, youngs_modulus: f64) -> Result<CurveFile, TextError> {
+        let names = |strain: Quantity| header_line(text, &[strain, STRESS]);
+        if names(STRAIN).is_none() && names(TOTAL).is_some() {
+            return Columns::new(text, TOTAL)?.made_plastic(youngs_modulus)?.checked();
+        }
+        if let (None, Some(line)) = (names(STRAIN), names(SOME)) {
+            let message = Columns::new(text, SOME)?.doubt(youngs_modulus);
+            return Err(TextError::new(line, message));
+        }
+        Columns::new(text, STRAIN)?.checked()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const MODULUS: f64 = 200e9;
 
     #[test]
     fn columns_in_any_order_and_unit() {
@@ -126,13 +261,13 @@ mod tests {
             "\"Plastische Dehnung [%]\",\"Fließspannung [N/mm²]\"\n\"0\",\"300\"\n\"1\",\"412.5\"\n",
             "test 7 of 12 May\n# eps_p sigma_MPa\n0 300\n0.01 412.5\n",
         ] {
-            let file = CurveFile::parse(text).unwrap();
+            let file = CurveFile::parse(text, MODULUS).unwrap();
             for (got, want) in file.points.iter().zip(&points) {
                 assert!((got[0] - want[0]).abs() < 1e-18 && (got[1] / want[1] - 1.0).abs() < 1e-15, "{text}");
             }
             assert_eq!(file.points.len(), 2);
         }
-        assert_eq!(CurveFile::parse("plastic_strain,yield_stress_Pa\n#\n0,3e8").unwrap().lines, [3]);
+        assert_eq!(CurveFile::parse("plastic_strain,yield_stress_Pa\n#\n0,3e8", MODULUS).unwrap().lines, [3]);
     }
 
     /// Heads as people and testing machines write them, each with the factor of its unit.
@@ -158,14 +293,14 @@ mod tests {
             let engineers = if head.contains("engineering") { ",270" } else { "" };
             let row = |strain: f64, stress: f64| format!("{}{engineers}{mark}{stress}\n", strain * factor);
             let text = format!("{head}\n{}{}", row(0.0, 300.0), row(0.01, 412.5));
-            let points = CurveFile::parse(&text).unwrap_or_else(|e| panic!("{text}: {e}")).points;
+            let points = CurveFile::parse(&text, MODULUS).unwrap_or_else(|e| panic!("{text}: {e}")).points;
             assert!((points[1][0] - 0.01).abs() < 1e-15, "{text}: {points:?}");
             assert!((points[1][1] / 412.5e6 - 1.0).abs() < 1e-15, "{text}: {points:?}");
         }
-        let percent = CurveFile::parse("plastic strain [%],stress (MPa)\n0%,300\n5%,400\n").unwrap();
+        let percent = CurveFile::parse("plastic strain [%],stress (MPa)\n0%,300\n5%,400\n", MODULUS).unwrap();
         assert!((percent.points[1][0] - 0.05).abs() < 1e-15, "{percent:?}");
         assert_eq!(
-            CurveFile::parse("plastic strain [1],stress (MPa)\n0,300\n6,400").unwrap().points[1][0],
+            CurveFile::parse("plastic strain [1],stress (MPa)\n0,300\n6,400", MODULUS).unwrap().points[1][0],
             6.0
         );
         for (text, words) in [
@@ -178,7 +313,7 @@ mod tests {
             ("plastic strain,shear stress (MPa)\n0,300\n1,360", "\"shear\""),
             ("plastic strain,stress x 10 (MPa)\n0,300\n1,360", "\"x 10\""),
         ] {
-            let error = CurveFile::parse(text).unwrap_err();
+            let error = CurveFile::parse(text, MODULUS).unwrap_err();
             assert!(error.message.contains(words), "{text}: {error}");
         }
     }
@@ -203,7 +338,66 @@ mod tests {
                 "must not fall, but 200 follows 300",
             ),
         ] {
-            let error = CurveFile::parse(text).unwrap_err();
+            let error = CurveFile::parse(text, MODULUS).unwrap_err();
+            assert_eq!(error.line, line, "{text}: {error}");
+            assert!(error.message.contains(words), "{text}: {error}");
+        }
+    }
+
+    const ELASTIC_LINE: &str = "0,0\n0.001,200\n0.0015,300\n0.01175,350\n0.022,400\n";
+
+    #[test]
+    fn total_strain_is_taken_less_its_elastic_part() {
+        for name in
+            ["total strain", "total_strain", "True total strain (-)", "Total True Strain", "Gesamtdehnung"]
+        {
+            let text = format!("{name},stress (MPa)\n{ELASTIC_LINE}");
+            let file = CurveFile::parse(&text, MODULUS).unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert_eq!((file.points.len(), &file.lines[..]), (3, &[4, 5, 6][..]), "{file:?}");
+            for (got, want) in file.points.iter().zip([[0.0, 3e8], [0.01, 3.5e8], [0.02, 4e8]]) {
+                assert!((got[0] - want[0]).abs() < 1e-15 && got[1] == want[1], "{file:?}");
+            }
+            let said = "less stress over Young's modulus, 200 GPa: first yield in line 4 at 300 MPa, 2 before it left out";
+            assert!(file.understood.contains(said), "{}", file.understood);
+        }
+        // the plastic column goes before the total one
+        let both = "total strain,plastic strain,stress (MPa)\n0.0015,0,300\n0.01175,0.01,350\n";
+        assert_eq!(CurveFile::parse(both, MODULUS).unwrap().points[1], [0.01, 3.5e8]);
+    }
+
+    #[test]
+    fn strain_that_may_be_total_or_plastic_is_refused_with_both_names() {
+        for (name, rows, why) in [
+            ("strain", ELASTIC_LINE, "0 under no stress"),
+            ("True strain", &ELASTIC_LINE[4..], "on the elastic line"),
+            ("Dehnung", "0,300\n0.01,350\n", "total strain: call it"),
+        ] {
+            let error = CurveFile::parse(&format!("{name},stress (MPa)\n{rows}"), MODULUS).unwrap_err();
+            assert_eq!(error.line, Some(1), "{error}");
+            for words in [name, why, "plastic_strain", "total_strain"] {
+                assert!(error.message.contains(words), "{error}");
+            }
+        }
+    }
+
+    #[test]
+    fn total_strain_off_the_elastic_line_and_that_of_engineers_are_refused() {
+        for (text, line, words) in [
+            (
+                "total strain,stress (MPa)\n0,0\n0.002,200\n0.02,300\n",
+                Some(3),
+                "Young's modulus, 200 GPa, gives 1.0000e-3",
+            ),
+            ("total strain,stress (MPa)\n0,300\n0.02,350\n", Some(2), "call it plastic_strain"),
+            ("total strain,stress (MPa)\n0,0\n0.001,200\n", Some(3), "no row follows"),
+            ("total strain,stress (MPa)\n0.0015,300\n0.02,280\n", Some(3), "must not fall"),
+            ("total strain,stress (MPa)\n0,0\n15,300\n", Some(3), "total_strain_%"),
+            ("engineering strain,engineering stress (MPa)\n0,0\n0.001,200\n", Some(1), "ln(1 + ε)"),
+            ("total strain,nominal stress (MPa)\n0,0\n0.001,200\n", Some(1), "σ (1 + ε)"),
+            ("Nenndehnung,Nennspannung (MPa)\n0,0\n0.001,200\n", Some(1), "ln(1 + ε)"),
+            ("plastic strain,Nennspannung (MPa)\n0,300\n0.001,320\n", Some(1), "σ (1 + ε)"),
+        ] {
+            let error = CurveFile::parse(text, MODULUS).unwrap_err();
             assert_eq!(error.line, line, "{text}: {error}");
             assert!(error.message.contains(words), "{text}: {error}");
         }

@@ -9,6 +9,7 @@ mod hardening_curve;
 mod hardening_table;
 mod plastic_table;
 pub mod range;
+mod total_strain;
 mod voce;
 
 pub use curve_file::CurveFile;

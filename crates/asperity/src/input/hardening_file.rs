@@ -24,10 +24,14 @@ pub struct ReadCurve {
 pub fn read(scene: &TomlFile<Scene>) -> Result<Option<ReadCurve>, InputError> {
     let material = &scene.value.material;
     let table = material.hardening_law == HardeningChoice::Table && material.hardening_table.is_none();
-    let Some(named) = material.hardening_file.as_ref().filter(|_| table) else { return Ok(None) };
+    // total strain is made plastic with Young's modulus, whose range validation checks
+    let has_modulus = material.youngs_modulus.0 > 0.0;
+    let Some(named) = material.hardening_file.as_ref().filter(|_| table && has_modulus) else {
+        return Ok(None);
+    };
     let limit = LONGEST_LINE * LARGEST_TABLE as u64;
     let table = TableFile::read(scene, "material.hardening_file", named, limit)?;
-    match CurveFile::parse(&table.text) {
+    match CurveFile::parse(&table.text, material.youngs_modulus.0) {
         Ok(curve) => Ok(Some(ReadCurve { table, curve })),
         Err(error) => Err(table.error(scene, &error)),
     }

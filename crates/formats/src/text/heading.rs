@@ -82,7 +82,7 @@ const HARMLESS: [&str; 46] = [
     "absolute",
 ];
 /// Words of the force over the area before the test and of the growth over the length before it.
-const OF_ENGINEERS: [&str; 14] = [
+const OF_ENGINEERS: [&str; 15] = [
     "engineering",
     "eng",
     "engr",
@@ -94,6 +94,7 @@ const OF_ENGINEERS: [&str; 14] = [
     "conventionnelle",
     "nominale",
     "ingenieur",
+    "nenn",
     "ingegneristica",
     "ingenieril",
     "1st",
@@ -148,6 +149,12 @@ impl Heading {
         let (name, unit) = parts(text);
         let (name, unit) = (folded(&name), unit.map(|unit| unit.trim().to_string()));
         let (name, unit) = with_prefix(name, unit);
+        // one word of German
+        let engineers = ["nenn", "ingenieur"].iter().find_map(|of| Some((of, name.strip_prefix(of)?)));
+        let name = match engineers.filter(|(_, rest)| ["spannung", "dehnung"].contains(rest)) {
+            Some((of, rest)) => format!("{of} {rest}"),
+            None => name,
+        };
         // "Depth 2" is the depth of the second test
         let name = name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ' ');
         let name = ["in", "en", "#"]

@@ -16,7 +16,7 @@ pub use encoding::decode;
 pub use grid::{Grid, Tables, read_grid};
 pub use header::Asked;
 pub use heading::Quantity;
-pub use series::{Series, SeriesTable, read_series};
+pub use series::{Series, SeriesTable, header_line, read_series};
 
 pub(crate) use header::{Columns, Header, header_cells};
 pub(crate) use heading::folded_name;

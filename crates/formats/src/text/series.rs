@@ -125,6 +125,19 @@ pub fn read_series<const N: usize>(
     reader.finish(text)
 }
 
+/// The line, from 1, of the first header of `text` that names all columns `wanted`.
+pub fn header_line<const N: usize>(text: &str, wanted: &[Quantity; N]) -> Option<usize> {
+    let dialect = Dialect::detect(text, None, false).ok()?;
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    let names = |(i, line): (usize, &str)| {
+        let line = line.trim_start_matches(['#', '%', '/', ' ']);
+        let is_header =
+            !is_row(line) && Header::new(&dialect, i + 1, line, wanted, &Asked::default()).is_some();
+        is_header.then_some(i + 1)
+    };
+    lines.map(names).find_map(|line| line)
+}
+
 impl<'t, const N: usize> Reader<'_, 't, N> {
     /// Takes one line.
     fn take(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
@@ -182,7 +195,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     /// Keeps the units that a line above the rows declares; true where it names no columns.
     fn declares(&mut self, line: usize, bare: &str) -> bool {
-        let is_above = self.block.as_ref().is_none_or(|block| block.columns.is_none());
+        let is_above = !is_row(bare) && self.block.as_ref().is_none_or(|block| block.columns.is_none());
         let declared = if is_above { DeclaredUnit::list(line, bare) } else { Vec::new() };
         let is_one = !declared.is_empty();
         self.declared.extend(declared);

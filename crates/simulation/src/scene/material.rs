@@ -42,8 +42,10 @@ pub struct Material {
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub saturation_strain: Option<f64>,
-    /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is plastic_strain,yield_stress_MPa;
-    /// linear between its points, constant beyond the last. A resolved scene has `hardening_table` in its place.
+    /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is
+    /// plastic_strain,yield_stress_MPa, or total_strain in place of plastic_strain, of which stress over Young's
+    /// modulus is subtracted; linear between its points, constant beyond the last. A resolved scene has
+    /// `hardening_table` in its place.
     #[schemars(example = "curve.csv")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_file: Option<PathBuf>,
