@@ -114,6 +114,21 @@ fn curves() -> Vec<Dialect> {
             "KLA/MTS NanoIndenter",
             "Raw Displacement (nm)\tRaw Load (mN)\tDisplacement Into Surface (nm)\tLoad On Sample (mN)\n900\t9\t100\t2\n950\t15\t200\t8\n",
         ),
+        (
+            "tabs behind the commas between columns",
+            "C and MATLAB programs that line columns up",
+            "Depth (nm),\tLoad (mN)\n100.0,\t2\n200.0,\t8\n",
+        ),
+        (
+            "name and unit in cells of their own",
+            "spreadsheets and loggers",
+            "Time,s,Depth,nm,Load,mN\n0,100,2\n1,200,8\n",
+        ),
+        (
+            "units in the words before the table",
+            "loggers",
+            "Depth unit: nm\nLoad [unit]: mN\nDepth\tLoad\n100\t2\n200\t8\n",
+        ),
         ("footer and empty rows", "spreadsheets", "depth_um;force_mN\n0,1;2\n;\n0,2;8\nMittelwert;\n"),
     ] {
         all.push(dialect(feature, source, "curve.txt", text));
