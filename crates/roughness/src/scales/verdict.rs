@@ -168,6 +168,8 @@ impl Octaves {
         let (more, back) = (HALF_SEEN * steps.y[0], -BACK * HALF_SEEN * steps.y[0]);
         let low = possible(ends.into_iter().fold(f64::INFINITY, f64::min) + more.min(back));
         let high = possible(ends.into_iter().fold(f64::NEG_INFINITY, f64::max) + more.max(back));
+        // points that were picked hold the heights of finer waves already
+        let [low, high] = if series.of_long_waves { [low.min(0.0), high.max(0.0)] } else { [low, high] };
         let bound = high.max(-low).exp_m1();
         let [low, high] = [low - noise.ln_1p(), high + noise.ln_1p()];
         let found = Verdict {
