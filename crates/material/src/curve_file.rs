@@ -346,6 +346,13 @@ mod tests {
 
     const ELASTIC_LINE: &str = "0,0\n0.001,200\n0.0015,300\n0.01175,350\n0.022,400\n";
 
+    /// Read as shares before, a hundred times too large, wherever stress had a unit of its own.
+    #[test]
+    fn percent_in_the_words_before_a_table_is_that_of_its_strain() {
+        let text = "Strain unit: %\nplastic strain,stress (MPa)\n0,300\n1,412\n";
+        assert_eq!(CurveFile::parse(text, 210e9).unwrap().points, [[0.0, 300e6], [0.01, 412e6]]);
+    }
+
     #[test]
     fn total_strain_is_taken_less_its_elastic_part() {
         for name in
