@@ -10,7 +10,7 @@ use asperity_solver::body::analysis::Analyses;
 use asperity_verification::twins::{Cone, Normal, indenter};
 use rayon::prelude::*;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The depth of every imprint, µm.
 const DEPTH: f64 = 2.0;
@@ -19,9 +19,12 @@ const SLOPE_DEG: f64 = 19.7;
 /// Standard deviations: of a force, of a height over the depth; and of offset and tilt over the depth.
 const NOISE: [f64; 3] = [0.01, 0.02, 0.005];
 
+/// Contact radii over which heights are alike.
+pub const LENGTHS: [f64; 2] = [0.05, 0.3];
+
 /// `count` metals of E/σ_y from 100 to 600 and n from 0 to 0.3, each with the curve of a cone of 70.3° (200
 /// points of loading, 100 of unloading) and its imprint (150 points to three contact radii), both with noise.
-/// Heights are alike over `length` contact radii.
+/// Heights are alike over `length` contact radii, one of [`LENGTHS`].
 pub fn imprints(count: usize, length: f64) -> Vec<Case> {
     let folder = std::env::temp_dir().join(concat!("asperity-imprints-", env!("CARGO_PKG_VERSION")));
     std::fs::create_dir_all(&folder).expect("can be made");
@@ -34,9 +37,9 @@ pub fn imprints(count: usize, length: f64) -> Vec<Case> {
     let one = |i: usize| {
         let [e, s, n] = metal(i);
         let curve = folder.join(format!("curve-{i}.csv"));
-        let imprint = folder.join(format!("imprint-{i}-{length}.csv"));
-        if !curve.exists() || !imprint.exists() {
-            write([e, s, n], i as u64, length, [&curve, &imprint])?;
+        let imprints = LENGTHS.map(|length| folder.join(format!("imprint-{i}-{length}.csv")));
+        if !curve.exists() || imprints.iter().any(|imprint| !imprint.exists()) {
+            write([e, s, n], i as u64, &curve, &imprints)?;
         }
         let modulus = format!("[\"{:.1} GPa\", \"{:.1} GPa\"]", 0.8 * e, 1.2 * e);
         let mut fit = material(&modulus, 0.3, ["50 MPa", "10 GPa"]);
@@ -57,8 +60,9 @@ pub fn imprints(count: usize, length: f64) -> Vec<Case> {
     (0..count).into_par_iter().with_max_len(1).filter_map(one).collect()
 }
 
-/// Writes curve and imprint of a metal (GPa, MPa, n) by finite elements at `reference`.
-fn write([e, s, n]: [f64; 3], seed: u64, length: f64, [curve, imprint]: [&Path; 2]) -> Option<()> {
+/// Writes the curve of a metal (GPa, MPa, n) by finite elements at `reference`, and its imprint with each of
+/// the roughnesses.
+fn write([e, s, n]: [f64; 3], seed: u64, curve: &Path, imprints: &[PathBuf]) -> Option<()> {
     let cone = indenter(SLOPE_DEG, 1e3 * e / s, n);
     let analyses = Analyses::default();
     let (found, _) = solve(&cone, Accuracy::Reference, &analyses).ok()?;
@@ -77,16 +81,20 @@ fn write([e, s, n]: [f64; 3], seed: u64, length: f64, [curve, imprint]: [&Path; 
     let far = surface.last()?[1];
     let radius = left.contact_radius;
     let step = 3.0 / 149.0;
-    let alike = (-step / length).exp();
-    let [offset, tilt] = [NOISE[2] * noise.draw(), NOISE[2] * noise.draw()];
-    let mut rough = noise.draw();
-    let mut text = "r_um,z_um\n".to_string();
-    for k in 0..150 {
-        let place = step * f64::from(k);
-        let height =
-            linear_between(&surface, place * radius) - far + NOISE[1] * rough + offset + tilt * place;
-        let _ = writeln!(text, "{:.6},{:.6}", DEPTH * place * radius, DEPTH * height);
-        rough = alike * rough + (1.0 - alike * alike).sqrt() * noise.draw();
+    for (length, imprint) in LENGTHS.iter().zip(imprints) {
+        let mut noise = Normal(SplitMix(noise.0.0));
+        let alike = (-step / length).exp();
+        let [offset, tilt] = [NOISE[2] * noise.draw(), NOISE[2] * noise.draw()];
+        let mut rough = noise.draw();
+        let mut text = "r_um,z_um\n".to_string();
+        for k in 0..150 {
+            let place = step * f64::from(k);
+            let height =
+                linear_between(&surface, place * radius) - far + NOISE[1] * rough + offset + tilt * place;
+            let _ = writeln!(text, "{:.6},{:.6}", DEPTH * place * radius, DEPTH * height);
+            rough = alike * rough + (1.0 - alike * alike).sqrt() * noise.draw();
+        }
+        std::fs::write(imprint, text).ok()?;
     }
-    std::fs::write(imprint, text).ok()
+    Some(())
 }

@@ -97,7 +97,7 @@ fn main() {
     let own = book.solve(own);
     noisy_twins(&mut report, &own, count);
     let count: usize = after("--imprints").map_or(100, |n| n.parse().expect("a number"));
-    for (length, bound) in [(0.05, IMPRINT), (0.3, COVERS)] {
+    for (length, bound) in imprints::LENGTHS.into_iter().zip([IMPRINT, COVERS]) {
         let found = book.solve(imprints(count, length));
         let work = format!("one cone and its imprint, roughness alike over {length} contact radii");
         line(&mut report, &work, "σ_y", &yields(&found), count, &bound);
