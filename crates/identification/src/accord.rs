@@ -9,7 +9,7 @@
 
 use crate::experiment::{Data, Experiment};
 use crate::noise::noise_from_scatter;
-use crate::numbers::{Accord, fits, room_for_the_noise};
+use crate::numbers::{Accord, limit, room_for_the_noise};
 use crate::parameters::Unknowns;
 use crate::search::again;
 
@@ -56,6 +56,6 @@ fn accord(experiments: &[Experiment], i: usize, unknowns: &Unknowns, point: &[f6
     let common = starts.iter().filter_map(|start| again(&others, unknowns, start).ok());
     let common = common.map(|minimum| minimum.chi2).min_by(f64::total_cmp)?;
     let growth = (common - without.chi2 - alone.chi2).max(0.0);
-    let holds = fits(growth, unknowns.parameters.len() as i64, room);
-    Some(Accord { measurement, growth, holds })
+    let growth_limit = limit(unknowns.parameters.len() as i64, room);
+    Some(Accord { measurement, growth, growth_limit, holds: growth <= growth_limit })
 }

@@ -10,7 +10,9 @@ use crate::levenberg_marquardt::jacobian;
 use crate::profile_likelihood::Interval;
 use indexmap::IndexMap;
 use nalgebra::{DMatrix, DVector};
+use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Largest distance of an end of the interval from the value, relative of a stress, absolute of n, within
 /// which a number counts as found.
@@ -63,7 +65,7 @@ fn is_narrow(parameter: &Parameter, best: f64, interval: &Interval) -> bool {
 }
 
 /// A change of the unknowns that the measurements do not notice.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NullDirection {
     /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive
     /// ones, else a difference.
@@ -106,7 +108,7 @@ pub fn null_direction(
 }
 
 /// Another experiment and what it would do.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NextExperiment {
     /// Half apex angle of the sharp cone, degrees.
     pub half_apex_deg: f64,
@@ -233,11 +235,12 @@ pub fn deviations(
 
 /// Narrowing of the intervals by one of several measurements: the width of every interval without it over
 /// that with it, by the curvature at the best fit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Decided {
     /// The measurement that is left out.
     pub measurement: String,
     /// Unknowns and the factors by which their intervals would widen.
+    #[schemars(with = "BTreeMap<String, f64>")]
     pub widening: IndexMap<String, f64>,
 }
 

@@ -39,7 +39,7 @@ const LEAST_RING_SHARE: f64 = 0.01;
 /// Points that are kept of a profile.
 const KEPT_POINTS: usize = 90;
 /// Farthest place that is compared, contact radii: that to which the computed profiles reach.
-const FARTHEST_RADII: f64 = PLACES[PLACES.len() - 1];
+pub const FARTHEST_RADII: f64 = PLACES[PLACES.len() - 1];
 /// Contact radii over which an error of the finite elements is alike, along flank and pile-up.
 const ALIKE_RADII: f64 = 0.25;
 /// Standard deviation over the depth of a height by finite elements at `standard`; twice that at `draft`.
@@ -182,6 +182,13 @@ fn averaged(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         .collect()
 }
 
+/// Residual height far outside of a contact of the radius `radius` over its size at the rim: what yields is
+/// small from there, and lifts the free surface of an elastic half-space as the inverse cube of the distance
+/// (Mogi 1958).
+pub fn tail(place: f64, radius: f64) -> f64 {
+    (radius / place.abs()).powi(3)
+}
+
 /// Heights beyond the pile-up.
 #[derive(Clone, Copy, Debug, Default)]
 struct FarField {
@@ -199,27 +206,31 @@ struct FarField {
 fn far_field(points: &[[f64; 2]], radius: f64) -> Option<FarField> {
     let mut squares = 0.0;
     let (mut products, mut pairs, mut count, mut spacing, mut places) = (0.0, 0.0, 0, 0.0, 0.0);
+    let mut taken = 0;
     for side in [-1.0, 1.0] {
         let far: Vec<[f64; 2]> =
             points.iter().copied().filter(|p| side * p[0] > FAR_RADII * radius).collect();
         if far.len() < MIN_FAR_POINTS / 2 {
             continue;
         }
-        let rows: Vec<_> = far.iter().map(|p| ([1.0, p[0] / radius], p[1], 1.0)).collect();
-        let [height, tilt] = least_squares::solve(&rows)?;
-        let left: Vec<f64> = far.iter().map(|p| p[1] - height - tilt * p[0] / radius).collect();
+        // the smooth end of the pile-up is no noise
+        let terms = |p: &[f64; 2]| [1.0, p[0] / radius, tail(p[0], radius)];
+        let rows: Vec<_> = far.iter().map(|p| (terms(p), p[1], 1.0)).collect();
+        let line = least_squares::solve(&rows)?;
+        let smooth = |p: &[f64; 2]| terms(p).iter().zip(&line).map(|(term, of)| term * of).sum::<f64>();
+        let left: Vec<f64> = far.iter().map(|p| p[1] - smooth(p)).collect();
         squares += left.iter().map(|x| x * x).sum::<f64>();
         products += left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
         pairs += (left.len() - 1) as f64;
         spacing += far[far.len() - 1][0] - far[0][0];
         places += far.iter().map(|p| p[0].abs()).sum::<f64>();
         count += far.len();
+        taken += line.len();
     }
     if count < MIN_FAR_POINTS || squares <= 0.0 {
         return None;
     }
-    // two numbers of a line were taken from the points
-    let freedom = count as f64 - 2.0;
+    let freedom = count as f64 - taken as f64;
     let correlation = products / pairs / (squares / count as f64);
     let chance = 2.0 / (count as f64).sqrt();
     let correlation_length =
@@ -311,6 +322,12 @@ mod tests {
         // 60 points of which each third is new: a quarter of the deviation, half of the length
         assert!((far.noise / 20e-9 - 1.0).abs() < 0.35, "{far:?}");
         assert!((0.1e-6..0.7e-6).contains(&far.correlation_length), "{far:?}");
+        // the end of a pile-up of 200 nm is ten times as large as this noise, and smooth
+        let smooth = |p: &[f64; 2]| [p[0], 200e-9 * tail(p[0], 3e-6) + 2e-9 * draw()];
+        let piled: Vec<[f64; 2]> = points.iter().filter(|p| p[0] != 0.0).map(smooth).collect();
+        let far = far_field(&piled, 3e-6).unwrap();
+        assert!((far.noise / 2e-9 - 1.0).abs() < 0.35, "{far:?}");
+        assert!(far.correlation_length < 0.1e-6, "{far:?}");
         let white: Vec<[f64; 2]> = points.iter().map(|p| [p[0], 20e-9 * draw()]).collect();
         let far = far_field(&white, 3e-6).unwrap();
         assert!((far.noise / 20e-9 - 1.0).abs() < 0.25 && far.correlation_length < 0.1e-6, "{far:?}");

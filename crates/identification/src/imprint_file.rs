@@ -3,6 +3,7 @@
 //! Instruments write them as they like: a line that begins at its end and is tilted, a list of points for a
 //! map, heights that count down. What a file does not say is [asked](Reading) of its user.
 
+use crate::imprint::{self, FARTHEST_RADII};
 use asperity_formats::dimension::Dimension;
 use asperity_formats::surface::{self, Measured, Request, Spacing};
 use asperity_formats::text::{Asked, Quantity, read_series};
@@ -61,6 +62,8 @@ pub struct Reading<'a> {
 const HOLE_SHARE: f64 = 0.4;
 /// Contact radii from which a map is levelled.
 const LEVEL_RADII: f64 = 2.0;
+/// Contact radii to which ring means have to reach, that their end tells the height of the ground.
+const GROUND_RADII: f64 = 3.0;
 /// Rings of a radial mean over one contact radius.
 const RINGS: f64 = 40.0;
 /// Contact radii to which a line reaches on both sides of an imprint that it crosses, and from which its
@@ -231,7 +234,25 @@ fn radial_mean(
         let ring = &mut rings[k];
         *ring = (ring.0 + 1.0, [ring.1[0] + r, ring.1[1] + p[2]]);
     }
-    Ok(rings.iter().filter(|r| r.0 > 0.0).map(|(n, sum)| sum.map(|s| s / n)).collect())
+    let mut means: Vec<[f64; 2]> =
+        rings.iter().filter(|r| r.0 > 0.0).map(|(n, sum)| sum.map(|s| s / n)).collect();
+    let ground = ground(&means, radius);
+    for mean in &mut means {
+        mean[1] -= ground;
+    }
+    Ok(means)
+}
+
+/// Height to which ring means tend beyond the end of the pile-up, which the plane through what lies far from
+/// the hole has taken for level; 0 where they do not reach so far that they tell it.
+fn ground(means: &[[f64; 2]], radius: f64) -> f64 {
+    let far = || means.iter().filter(|p| p[0] > LEVEL_RADII * radius && p[0] < FARTHEST_RADII * radius);
+    let reach = far().map(|p| p[0]).fold(0.0, f64::max);
+    let rows: Vec<_> = far().map(|p| ([1.0, imprint::tail(p[0], radius)], p[1], 1.0)).collect();
+    match least_squares::solve(&rows) {
+        Some([ground, _]) if reach > GROUND_RADII * radius => ground,
+        _ => 0.0,
+    }
 }
 
 /// Middle of the hole, weighted by its depth.

@@ -233,7 +233,7 @@ fn residual(
 ) -> Option<Residual> {
     let misfits = objective.misfits(&best.point)?;
     let all = Misfit::sum(&misfits);
-    let curves = experiments.iter().map(|e| {
+    let curves = experiments.iter().zip(&misfits).map(|(e, misfit)| {
         let differences = e.differences(unknowns, &best.point, false)?;
         let loading = match &e.data {
             Data::Curve(measured) => measured.loading.len(),
@@ -244,7 +244,8 @@ fn residual(
             Data::Imprint(imprint) => imprint.noise / e.depth,
             _ => e.noise,
         };
-        Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise })
+        let (name, rms) = (e.name.clone(), square.sqrt());
+        Some(CurveResidual { name, rms, noise, chi2: misfit.chi2, chi2_limit: misfit.limit(0) })
     });
     let curves = curves.collect::<Option<_>>()?;
     // a measurement that does not fit is not hidden by others that fit well
@@ -253,6 +254,7 @@ fn residual(
     let accords = accords(experiments, unknowns, &best.point);
     Some(Residual {
         chi2: all.chi2,
+        chi2_limit: all.limit(sought),
         fits: each && all.fits(sought) && accords.iter().all(|accord| accord.holds),
         degrees_of_freedom: all.count as i64 - sought as i64,
         curves,

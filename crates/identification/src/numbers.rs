@@ -1,9 +1,10 @@
 //! Numbers of a result: what was sought with its interval, a point of the stress-strain curve, residuals.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Yield stress at a plastic strain with its 95 % interval, MPa.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[allow(non_snake_case, reason = "names of the file")]
 pub struct StressAt {
     /// Plastic strain.
@@ -17,7 +18,7 @@ pub struct StressAt {
 }
 
 /// A number that was sought, with its 95 % interval.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Found {
     /// The best value.
     pub value: f64,
@@ -39,7 +40,7 @@ pub struct Found {
 }
 
 /// A number of one of several metals that fit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Branch {
     /// The best value.
     pub value: f64,
@@ -52,11 +53,14 @@ pub struct Branch {
 }
 
 /// Residual of the fit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Residual {
     /// Sum of squares in standard deviations.
     pub chi2: f64,
-    /// True where that is no more than chance allows, and every imprint is in accord with the rest.
+    /// The largest that chance allows.
+    pub chi2_limit: f64,
+    /// True where neither that nor the sum of any measurement is larger, and every imprint is in accord with
+    /// the rest.
     pub fits: bool,
     /// Measured numbers less unknowns.
     pub degrees_of_freedom: i64,
@@ -69,19 +73,21 @@ pub struct Residual {
 }
 
 /// Accord of an imprint with the other measurements.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Accord {
     /// The imprint.
     pub measurement: String,
     /// Growth of the sum of squares because one metal has to serve the imprint and the others, over the sum
-    /// of both by themselves.
+    /// of both by themselves, with the noise that the others have by themselves.
     pub growth: f64,
-    /// True where that is no more than chance allows.
+    /// The largest that chance allows.
+    pub growth_limit: f64,
+    /// True where it is not larger.
     pub holds: bool,
 }
 
 /// Residual of one measurement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CurveResidual {
     /// Its name.
     pub name: String,
@@ -89,13 +95,17 @@ pub struct CurveResidual {
     pub rms: f64,
     /// Standard deviation that was given or taken from the scatter.
     pub noise: f64,
+    /// Sum of squares of its differences in standard deviations.
+    pub chi2: f64,
+    /// The largest that chance allows.
+    pub chi2_limit: f64,
 }
 
-/// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
-/// of freedom, with [room for the noise](room_for_the_noise); that of none has to be small.
-pub fn fits(chi2: f64, freedom: i64, room: f64) -> bool {
+/// The largest sum of squares that chance allows: three standard deviations above what is expected of so many
+/// degrees of freedom, with [room for the noise](room_for_the_noise); that of none has to be small.
+pub fn limit(freedom: i64, room: f64) -> f64 {
     let free = freedom.max(0) as f64;
-    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0 + room
+    free + 3.0 * (2.0 * free).sqrt() + 4.0 + room
 }
 
 /// Growth of the largest sum of squares of `count` differences that chance allows, where the variance of
@@ -116,8 +126,8 @@ mod tests {
     #[test]
     fn a_sum_of_squares_may_be_off_as_much_as_its_noise() {
         let room = room_for_the_noise(75, 25.0);
-        assert!(fits(2.4 * 75.0, 75, room) && !fits(2.4 * 75.0, 75, 0.0));
-        assert!(!fits(3.0 * 75.0, 75, room));
+        assert!(2.4 * 75.0 <= limit(75, room) && 2.4 * 75.0 > limit(75, 0.0));
+        assert!(3.0 * 75.0 > limit(75, room));
         assert!(room_for_the_noise(75, 1e6) < 0.1);
     }
 }

@@ -4,7 +4,7 @@ use super::covariance::{Covariance, log_determinant};
 use super::experiment::Experiment;
 use super::parameters::Unknowns;
 use crate::levenberg_marquardt::{Function, ResidualFunction, Residuals, jacobian};
-use crate::numbers::fits;
+use crate::numbers::limit;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// The measurements with the parts of their covariances at one point.
@@ -42,9 +42,14 @@ impl Misfit {
         }
     }
 
-    /// True where it is no more than chance allows with so many `unknowns`.
+    /// The largest sum that chance allows with so many `unknowns`.
+    pub fn limit(&self, unknowns: usize) -> f64 {
+        limit(self.count as i64 - unknowns as i64, self.room)
+    }
+
+    /// True where the sum is not larger.
     pub fn fits(&self, unknowns: usize) -> bool {
-        fits(self.chi2, self.count as i64 - unknowns as i64, self.room)
+        self.chi2 <= self.limit(unknowns)
     }
 }
 

@@ -9,6 +9,7 @@ use crate::input::toml_file::to_toml;
 use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt, json};
 use asperity_identification::experiment::Experiment;
+use asperity_identification::fit_file::{FitCurve, FitShape};
 use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
 use asperity_identification::inference::{Inference, Sampling, infer};
 use asperity_identification::levenberg_marquardt::Minimum;
@@ -21,15 +22,18 @@ use asperity_identification::pyramid::Pyramid;
 use asperity_identification::search::{self, search};
 use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
+use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
 /// The result.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Identification {
     /// The unknowns, by their names.
+    #[schemars(with = "BTreeMap<String, Found>")]
     pub parameters: IndexMap<String, Found>,
     /// Correlations of the unknowns in their order, by the curvature at the best fit.
     pub correlation: Vec<Vec<f64>>,
@@ -93,6 +97,8 @@ pub(super) fn identify(
     notes.extend(found.notes);
     notes.extend(assumed(&fit));
     notes.extend(notes_on_pyramids(&experiments, &unknowns, &best.point));
+    let material = unknowns.material(&best.point).ok_or_else(nowhere)?;
+    notes.extend(note_on_rigid_tools(&fit, &unknowns, &material));
     notes.dedup();
     let Inference { parameters, correlation, verdict, blind_direction, next_experiment, .. } = inference;
     Ok(Identification {
@@ -110,7 +116,7 @@ pub(super) fn identify(
         runs: found.runs,
         wall_s: clock.elapsed().as_secs_f64(),
         version: env!("CARGO_PKG_VERSION"),
-        material: unknowns.material(&best.point).ok_or_else(nowhere)?,
+        material,
         samples: inference.samples,
         drawn,
     })
@@ -145,6 +151,25 @@ fn notes_on_pyramids(experiments: &[Experiment], unknowns: &Unknowns, point: &[f
         Some(kind.note(&names, &own.first()?.design_point(unknowns, point)?))
     };
     [Pyramid::Berkovich, Pyramid::Vickers].into_iter().filter_map(one).collect()
+}
+
+/// A note on tools that are taken as rigid where E is sought: what diamond would make of it.
+fn note_on_rigid_tools(fit: &Fit, unknowns: &Unknowns, metal: &Material) -> Option<String> {
+    /// Young's modulus of diamond over 1 - ν² of it, Pa.
+    const DIAMOND: f64 = 1141e9 / (1.0 - 0.07 * 0.07);
+    let is_rigid =
+        |c: &FitCurve| c.file.is_some() && c.tool.shape != FitShape::Plane && c.tool.youngs_modulus.is_none();
+    let is_sought = unknowns.parameters.iter().any(|p| p.name == "youngs_modulus");
+    let plane = metal.youngs_modulus.0 / (1.0 - metal.poissons_ratio.powi(2));
+    let more = 1.0 / (1.0 - plane / DIAMOND) - 1.0;
+    let said = is_sought && fit.tables().curve.iter().any(is_rigid) && more > 0.005;
+    said.then(|| {
+        format!(
+            "the tool is taken as rigid; if it was diamond, youngs_modulus is {:.0} % larger: give youngs_modulus = \"1141 GPa\" and \
+             poissons_ratio = 0.07 in `tool`",
+            100.0 * more
+        )
+    })
 }
 
 fn assumed(fit: &Fit) -> Option<String> {

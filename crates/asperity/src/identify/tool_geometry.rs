@@ -11,14 +11,18 @@ use asperity_simulation::scene::Friction;
 pub const PYRAMIDS_CONE: f64 = 70.3;
 
 fn slope_deg(tool: &FitTool) -> Result<f64, KeyError> {
+    let missing = match tool.shape {
+        FitShape::Conospherical => {
+            "`half_apex_deg` of the cone behind the tip is missing: give half_apex_deg = 45 or slope_deg = 45, as the maker of the \
+             tool states it; where the indent is so shallow that the tip alone touches, say shape = \"sphere\" and radius instead"
+        }
+        _ => "`half_apex_deg` of the cone is missing: give half_apex_deg = 70.3, or slope_deg = 19.7",
+    };
     match (tool.slope_deg, tool.half_apex_deg) {
         (Some(_), Some(_)) => {
             Err(key_error("tool.half_apex_deg", "does not go with slope_deg: remove one of the two"))
         }
-        (None, None) => Err(key_error(
-            "tool",
-            "`half_apex_deg` of the cone is missing: give half_apex_deg = 70.3, or slope_deg = 19.7",
-        )),
+        (None, None) => Err(key_error("tool", missing)),
         (Some(slope), None) | (None, Some(slope)) if !(slope > 0.0 && slope < 90.0) => {
             Err(key_error("tool", format!("the angle must be above 0 and below 90 degrees, not {slope}")))
         }
@@ -42,10 +46,14 @@ pub(super) fn geometry(curve: &FitCurve) -> Result<Geometry, KeyError> {
         ("radius", tool.radius.is_some(), tool.shape == FitShape::Sphere),
     ] {
         if given && !allowed {
-            return Err(key_error(
-                &format!("tool.{key}"),
-                "does not belong to a tool of this shape: remove it",
-            ));
+            let way_out = match (key, tool.shape) {
+                ("radius", FitShape::Cone | FitShape::Conospherical) => {
+                    "does not belong to a cone: that of its rounded tip is tip_radius"
+                }
+                ("tip_radius", FitShape::Sphere) => "does not belong to a ball: its radius is radius",
+                _ => "does not belong to a tool of this shape: remove it",
+            };
+            return Err(key_error(&format!("tool.{key}"), way_out));
         }
     }
     if tool.shape != FitShape::Plane && curve.asperity.is_some() {

@@ -1,6 +1,7 @@
 //! Every column of every table and every key of every summary, from the types that write them.
 
 use super::markdown::{code, table, words};
+use asperity::Identification;
 use asperity::calibrate::{AngleFit, Fit};
 use asperity::calibration::row::{CaseRow, Row};
 use asperity::calibration::sweep::Sweep;
@@ -44,6 +45,10 @@ const SCALES: &str = "`spectrum.csv` is that of `asperity rough`; `spectrum.svg`
 const JOINT: &str = "`calculix.inp` and `abaqus.inp` hold `*SURFACE INTERACTION` with its tables, ready to be included by a deck in N, mm, K; \
     `moose.csv` holds the same in SI for piecewise functions. Their heads say what made them, where the overclosure is 0, and what goes \
     beyond the last row. `pressure.svg`, `stiffness.svg` and, with `[thermal]`, `conductance.svg` show the law with its errors.";
+
+const IDENTIFY: &str = "A measurement is a curve, or the imprint of one. `material.toml` holds the best values as the `[material]` of a scene, which `asperity \
+    crush --metal fit.json` takes as well; `posterior.csv` samples of the posterior, one column an unknown in the units of `parameters`; \
+    `curve.svg`, `imprint.svg`, `stress_strain.svg` and `objective.svg` show data and fit.";
 
 const REPORT: &str = "`crush`, `calibrate`, `rough`, `joint`, `scales` and `identify` with `--report` leave `report.html` as well: a page that needs no \
     network, with the numbers and their errors first, the warnings, and curves that tell the value under the pointer.";
@@ -111,6 +116,7 @@ pub fn page() -> String {
         "a row per asperity, depth and closure, the finite elements among them",
     );
     text += &file_columns::<extract::Summary>("summary.json", "the map and what was found on it");
+    text += &format!("## asperity identify\n\n{}{IDENTIFY}\n\n", of_identify());
     text += &format!("## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
     text += &file_columns::<TradeRow>("trade.csv", "a row per setting");
     text
@@ -127,6 +133,31 @@ fn of_scales() -> String {
         "summary.json: `hurst`, `rolloff_um`, `shortest_um`",
         "an interval",
     );
+    text
+}
+
+/// The keys of the `fit.json` of `asperity identify`, from the types that write it.
+fn of_identify() -> String {
+    let schema = schema_for!(Identification).to_value();
+    let keys = |file: &str, about: &str, of: &serde_json::Value| {
+        let described = of["properties"].as_object().into_iter().flatten();
+        let rows = described.map(|(name, value)| {
+            vec![code(name), words(value["description"].as_str().unwrap_or_default().trim())]
+        });
+        heading(file, about) + &table(&["name", "meaning"], rows)
+    };
+    let parts = [
+        ("fit.json: `parameters`", "each unknown", "Found"),
+        ("fit.json: `branches` of an unknown", "each of several metals that fit", "Branch"),
+        ("fit.json: `stress_strain`, `representative`", "a point of the stress-strain curve", "StressAt"),
+        ("fit.json: `residual`", "how well the best metal explains what was measured", "Residual"),
+        ("fit.json: `curves` of `residual`", "each measurement", "CurveResidual"),
+        ("fit.json: `accords` of `residual`", "each imprint beside the other measurements", "Accord"),
+        ("fit.json: `decided`", "what each of several measurements tells", "Decided"),
+        ("fit.json: `next_experiment`", "the cone to take next", "NextExperiment"),
+    ];
+    let mut text = keys("fit.json", "what was found", &schema);
+    text.extend(parts.iter().map(|(file, about, name)| keys(file, about, &schema["$defs"][name])));
     text
 }
 

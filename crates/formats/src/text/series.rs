@@ -364,7 +364,11 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             self.said,
             self.dialect.describe(),
             plural(self.series.len(), ", tests"),
-            if self.skipped > 0 { format!(", {} others left out", self.skipped) } else { String::new() }
+            if self.skipped > 0 {
+                format!(", other lines left out: {}", self.skipped)
+            } else {
+                String::new()
+            }
         );
         let (scales, names, have_units) = (self.scales, self.names, self.have_units);
         Ok(SeriesTable { series: self.series, scales, names, have_units, understood })

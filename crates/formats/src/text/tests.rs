@@ -244,7 +244,7 @@ fn what_cannot_be_read_names_the_line_and_a_way_out() {
 fn the_sentence_says_what_was_understood() {
     let text = "Instrument X\nDepth (nm);Load (mN)\n100,0;2\n150,0;\n200,0;8\n";
     let said = indentation::read(text, COLUMNS, None).unwrap().understood;
-    let want = "depth from \"Depth (nm)\", force from \"Load (mN)\"; semicolons between columns and decimal commas; 2 rows, lines 3 to 5, 2 others left out";
+    let want = "depth from \"Depth (nm)\", force from \"Load (mN)\"; semicolons between columns and decimal commas; 2 rows, lines 3 to 5, other lines left out: 2";
     assert_eq!(said, want);
 }
 
