@@ -6,7 +6,10 @@ use crate::error::Error;
 use crate::page::{self, Numbers, Report};
 use crate::results::numbers::significant;
 use asperity_identification::numbers::{CurveResidual, Found};
-use maud::html;
+use maud::{Markup, html};
+
+/// Plastic strains at which the report tells the stress.
+const STRAINS: [f64; 3] = [0.02, 0.05, 0.1];
 
 impl Identification {
     /// The identification as one page that stands alone: the verdict, every number with its interval,
@@ -18,37 +21,33 @@ impl Identification {
         let numbers = Numbers::from_summary(self)?;
         let parameter = |(name, found): (&String, &Found)| {
             let at = |key: &str| numbers.shown(&format!("/parameters/{name}/{key}"), 1.0, "");
-            let unit = if found.unit.is_empty() { String::new() } else { format!(" {}", found.unit) };
+            let unit = if found.unit.is_empty() { String::new() } else { format!(", {}", found.unit) };
             let told = if found.identifiable { "yes" } else { "no" };
             vec![
-                html! { (name) },
-                html! { (at("value")) (unit) },
-                html! { (at("low")) " … " (at("high")) (unit) },
+                html! { (name.replace('_', " ")) (unit) },
+                at("value"),
+                html! { (at("low")) " to " (at("high")) },
                 html! { (told) },
             ]
         };
         let parameters: Vec<_> = self.parameters.iter().map(parameter).collect();
-        let residual = |(i, curve): (usize, &CurveResidual)| {
-            let at = |key: &str| numbers.error(&format!("/residual/curves/{i}/{key}"), "");
-            vec![html! { (curve.name) }, at("rms"), at("noise")]
+        let caption = if self.residual.fits {
+            "What was sought, with 95 % intervals by the fit. How often they held for known metals: Metals found again, a page of the book."
+        } else {
+            "No metal explains the measurements: these are the nearest values, and their intervals mean nothing."
         };
-        let residuals: Vec<_> = self.residual.curves.iter().enumerate().map(residual).collect();
         let stress = stress_strain(&self.stress_strain);
         let sections = html! {
             h2 { "Numbers" }
-            (page::table(
-                "What was sought, with 95 % intervals by the fit (how often they held for known metals: page Metals found again of the book).",
-                &["quantity", "value", "95 % interval", "identifiable"],
-                &parameters,
-            ))
+            (page::table(caption, &["quantity", "value", "95 % interval", "identifiable"], &parameters))
+            (self.stresses(&numbers))
             @if !self.decided.is_empty() {
                 (page::table(
-                    "How much wider each interval would be without one of the measurements.",
-                    &["left out", "intervals wider by a factor of"],
-                    &self.decided.iter().map(|d| {
-                        let factors = d.widening.iter().map(|(name, by)| format!("{name} {}", significant(*by)));
-                        vec![html! { (d.measurement) }, html! { (factors.collect::<Vec<_>>().join(", ")) }]
-                    }).collect::<Vec<_>>(),
+                    "How many times as wide each interval would be without one of the measurements.",
+                    &["left out", "interval of", "times as wide"],
+                    &self.decided.iter().flat_map(|d| d.widening.iter().map(|(name, by)| {
+                        vec![html! { (d.measurement) }, html! { (name.replace('_', " ")) }, html! { (significant(*by)) }]
+                    })).collect::<Vec<_>>(),
                 ))
             }
             h2 { "Curves" }
@@ -64,10 +63,22 @@ impl Identification {
                 (page::drawing(&svg, "Map of the sum of squares over two unknowns.", "The sum of squares over the two unknowns that are determined worst: along a long valley the measurements do not distinguish."))
             }
             h2 { "Residuals" }
-            (page::table("Root mean square of the differences to the fit, and the noise that was counted with.", &["measurement", "left", "noise"], &residuals))
+            (self.residuals(&numbers))
             p {
-                "Sum of squares " (numbers.shown("/residual/chi2", 1.0, "")) " with " (self.residual.degrees_of_freedom)
+                "All together: χ² " (numbers.shown("/residual/chi2", 1.0, "")) " of at most "
+                (numbers.shown("/residual/chi2_limit", 1.0, "")) ", with " (self.residual.degrees_of_freedom)
                 " degrees of freedom; " (self.runs) " runs of finite elements, " (significant(self.wall_s)) " s."
+            }
+            @for (i, accord) in self.residual.accords.iter().enumerate() {
+                p {
+                    "One metal for " (accord.measurement) " and the other measurements: χ² grows by "
+                    (numbers.shown(&format!("/residual/accords/{i}/growth"), 1.0, "")) " of at most "
+                    (numbers.shown(&format!("/residual/accords/{i}/growth_limit"), 1.0, "")) "."
+                }
+            }
+            @if !self.understood.is_empty() {
+                h2 { "Files as they were read" }
+                ul { @for line in &self.understood { li { (line) } } }
             }
         };
         let report = Report {
@@ -76,8 +87,43 @@ impl Identification {
             verdict: &format!("{}.", self.verdict),
             warnings: &self.notes,
             sections,
-            inputs: &[],
+            inputs: &[("The fit, to identify the metal again", self.asked.clone())],
         };
         Ok(report.html())
+    }
+
+    /// Stresses of the curve at a few strains, and the one that is determined best.
+    fn stresses(&self, numbers: &Numbers) -> Markup {
+        let row = |at: String, place: String| {
+            let shown = |key: &str| numbers.shown(&format!("{place}/{key}"), 1.0, "");
+            let interval = html! { (shown("low_MPa")) " to " (shown("high_MPa")) };
+            vec![html! { (at) }, shown("value_MPa"), interval]
+        };
+        let percent = |strain: f64| format!("{} %", significant(100.0 * strain));
+        let best = self.representative.as_ref();
+        let best = best.map(|s| {
+            row(format!("{}, determined best", percent(s.plastic_strain)), "/representative".into())
+        });
+        let curve = self.stress_strain.iter().enumerate();
+        let told =
+            curve.filter(|(_, s)| STRAINS.iter().any(|strain| (s.plastic_strain - strain).abs() < 1e-9));
+        let told = told.map(|(i, s)| row(percent(s.plastic_strain), format!("/stress_strain/{i}")));
+        let rows: Vec<_> = best.into_iter().chain(told).collect();
+        page::table("Yield stress, MPa", &["plastic strain", "stress", "95 % interval"], &rows)
+    }
+
+    /// What the fit leaves of each measurement.
+    fn residuals(&self, numbers: &Numbers) -> Markup {
+        let row = |(i, curve): (usize, &CurveResidual)| {
+            let place = |key: &str| format!("/residual/curves/{i}/{key}");
+            let error = |key: &str| numbers.error(&place(key), "");
+            let number = |key: &str| numbers.shown(&place(key), 1.0, "");
+            vec![html! { (curve.name) }, error("rms"), error("noise"), number("chi2"), number("chi2_limit")]
+        };
+        let rows: Vec<_> = self.residual.curves.iter().enumerate().map(row).collect();
+        let caption = "Root mean square of the differences to the fit: of forces as shares, of heights over the depth; the noise that was \
+                       counted with; the sum of squares χ² in standard deviations, errors of the finite elements included, and the largest \
+                       that chance allows.";
+        page::table(caption, &["measurement", "left", "noise", "χ²", "at most"], &rows)
     }
 }

@@ -70,6 +70,9 @@ pub struct Identification {
     pub samples: Vec<Vec<f64>>,
     #[serde(skip)]
     pub(super) drawn: pictures::Drawn,
+    /// The fit as it was asked for, as TOML.
+    #[serde(skip)]
+    pub(super) asked: String,
 }
 
 pub(super) fn identify(
@@ -119,6 +122,7 @@ pub(super) fn identify(
         material,
         samples: inference.samples,
         drawn,
+        asked: to_toml(fit.tables()).map_err(Error::Unfinished)?,
     })
 }
 
