@@ -109,6 +109,9 @@ fn an_imprint_tells_the_yield_stress_that_its_curve_leaves_open() {
     let widening = |k: usize, name: &str| decided[k]["widening"][name].as_f64().unwrap();
     assert!(widening(1, "yield_stress") > 2.0 && widening(0, "youngs_modulus") > 2.0, "{decided:?}");
     assert!(place.names("both").contains(&"imprint.svg".to_string()));
+    // 1/E* of the twin is the metal's alone: 1/131.9 GPa; were 1/1146.6 GPa of it diamond's, E were larger
+    let note = both["notes"].to_string();
+    assert!(note.contains("rigid") && note.contains("13 % larger"), "{note}");
     // the metal goes on into a scene
     let end = place.run(&["crush", "scene.toml", "--metal", "both/fit.json", "--out", "next", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);
