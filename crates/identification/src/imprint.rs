@@ -5,8 +5,8 @@
 //! and Vlassak 2024). Heights stand over the deepest depth h, places over the contact radius a under load: so
 //! a profile varies smoothly with the metal, and that of a sharp cone does not depend on the depth.
 
+use crate::far_field::{FAR_RADII, FarField, MIN_FAR_POINTS, NoisePart, far_field};
 use crate::interpolation::{alike, linear_between};
-use asperity_numerics::least_squares;
 use asperity_simulation::scene::Accuracy;
 use nalgebra::DMatrix;
 
@@ -19,10 +19,6 @@ pub const PLACES: [f64; 36] = [
 /// Numbers of a computed imprint: ln(a/h), then the heights over h at [`PLACES`].
 pub const NUMBERS: usize = 1 + PLACES.len();
 
-/// Contact radii from which a profile is flat but for noise.
-const FAR_RADII: f64 = 1.9;
-/// Fewest points of the far field that tell its noise.
-const MIN_FAR_POINTS: usize = 8;
 /// Standard deviation over the depth that is taken where the far field tells none.
 const ASSUMED_NOISE_SHARE: f64 = 0.02;
 /// Least standard deviation over the depth: no instrument and no metal is smoother.
@@ -57,10 +53,8 @@ const RIM_RADII: f64 = 0.04;
 pub struct Imprint {
     /// Place (m, negative on the other side of the axis) and height above the far field (m).
     pub points: Vec<[f64; 2]>,
-    /// Standard deviation of a height, m.
-    pub noise: f64,
-    /// Distance over which heights are off alike, m; 0: each by itself.
-    pub correlation_length: f64,
+    /// Noise of a height, a sum of parts that are alike over a length each.
+    pub noise: Vec<NoisePart>,
     /// Degrees of freedom of the noise where the far field tells it; `None` where it is stated or assumed.
     pub noise_freedom: Option<f64>,
     /// Distance from the axis (m) at which heights that are means over rings have that noise: of a map whose
@@ -121,8 +115,7 @@ impl Imprint {
         }
         let points = averaged(&points);
         let mut notes = Vec::new();
-        let far = far_field(&points, radius);
-        let told = far.unwrap_or(FarField { noise: ASSUMED_NOISE_SHARE * depth, ..FarField::default() });
+        let far = far_field(&points, radius, stated.correlation_length);
         if far.is_none() && stated.noise.is_none() {
             notes.push(format!(
                 "the imprint has fewer than {MIN_FAR_POINTS} points beyond {FAR_RADII} contact radii that would tell its noise: {} % of the depth is taken; state it",
@@ -130,13 +123,17 @@ impl Imprint {
             ));
         }
         Ok(Imprint {
-            noise: stated.noise.unwrap_or(told.noise).max(MIN_NOISE_SHARE * depth),
-            correlation_length: stated.correlation_length.unwrap_or(told.correlation_length),
-            noise_freedom: far.filter(|_| stated.noise.is_none()).map(|far| far.freedom),
+            noise: noise(far.as_ref(), stated, depth),
+            noise_freedom: far.as_ref().filter(|_| stated.noise.is_none()).map(|far| far.freedom),
             ring: far.filter(|_| are_means && stated.noise.is_none()).map(|far| far.place),
             points,
             notes,
         })
+    }
+
+    /// Standard deviation of a height by noise, m.
+    pub fn deviation(&self) -> f64 {
+        self.noise.iter().map(|part| part.variance).sum::<f64>().sqrt()
     }
 
     /// Noise at `place` over that of the far field: a ring holds as many patches of roughness as it is long,
@@ -153,18 +150,33 @@ impl Imprint {
             DMatrix::from_fn(count, count, |i, j| of(self.points[i][0], self.points[j][0], i == j))
         };
         let noise = pair(&|a, b, same| {
-            let together = match self.correlation_length {
-                length if length > 0.0 => (-(a - b).abs() / length).exp(),
-                _ => f64::from(u8::from(same)),
+            let alike = |part: &NoisePart| match part.length {
+                length if length > 0.0 => part.covariance(a - b),
+                _ => part.covariance(if same { 0.0 } else { f64::INFINITY }),
             };
+            let together = self.noise.iter().map(alike).sum::<f64>() / (depth * depth);
             let levelling = LEVELLING_SHARE.powi(2) * (1.0 + a * b / (radius * radius));
-            (self.noise / depth).powi(2) * self.of_a_ring(a) * self.of_a_ring(b) * together + levelling
+            self.of_a_ring(a) * self.of_a_ring(b) * together + levelling
         });
         let size = |place: f64| 1.0 + (RIM_FACTOR - 1.0) * alike(place.abs() / radius - 1.0, RIM_RADII);
         // on both sides of the axis the finite elements are off alike
         let model = pair(&|a, b, _| size(a) * size(b) * alike((a.abs() - b.abs()) / radius, ALIKE_RADII));
         [noise, model]
     }
+}
+
+/// The noise of heights over an imprint of `depth`: as it is stated, else as the far field tells it, else
+/// assumed.
+fn noise(far: Option<&FarField>, stated: StatedNoise, depth: f64) -> Vec<NoisePart> {
+    let told = far.map_or_else(Vec::new, |far| far.parts.clone());
+    let sum = told.iter().map(|part| part.variance).sum::<f64>();
+    let assumed = if far.is_none() { ASSUMED_NOISE_SHARE * depth } else { sum.sqrt() };
+    let deviation = stated.noise.unwrap_or(assumed).max(MIN_NOISE_SHARE * depth);
+    let variance = deviation * deviation;
+    if sum <= f64::MIN_POSITIVE * 1e3 {
+        return vec![NoisePart { variance, length: stated.correlation_length.unwrap_or(0.0) }];
+    }
+    told.into_iter().map(|part| NoisePart { variance: part.variance * variance / sum, ..part }).collect()
 }
 
 /// Relative 95 % errors of a computed imprint at `accuracy`, as those of a response stand.
@@ -180,63 +192,6 @@ fn averaged(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         .chunks(size)
         .map(|part| [0, 1].map(|k| part.iter().map(|p| p[k]).sum::<f64>() / part.len() as f64))
         .collect()
-}
-
-/// Residual height far outside of a contact of the radius `radius` over its size at the rim: what yields is
-/// small from there, and lifts the free surface of an elastic half-space as the inverse cube of the distance
-/// (Mogi 1958).
-pub fn tail(place: f64, radius: f64) -> f64 {
-    (radius / place.abs()).powi(3)
-}
-
-/// Heights beyond the pile-up.
-#[derive(Clone, Copy, Debug, Default)]
-struct FarField {
-    /// Standard deviation, m.
-    noise: f64,
-    /// Correlation length, m.
-    correlation_length: f64,
-    /// Degrees of freedom of the standard deviation.
-    freedom: f64,
-    /// Mean distance from the axis, m.
-    place: f64,
-}
-
-/// That of a profile; `None` of too few points.
-fn far_field(points: &[[f64; 2]], radius: f64) -> Option<FarField> {
-    let mut squares = 0.0;
-    let (mut products, mut pairs, mut count, mut spacing, mut places) = (0.0, 0.0, 0, 0.0, 0.0);
-    let mut taken = 0;
-    for side in [-1.0, 1.0] {
-        let far: Vec<[f64; 2]> =
-            points.iter().copied().filter(|p| side * p[0] > FAR_RADII * radius).collect();
-        if far.len() < MIN_FAR_POINTS / 2 {
-            continue;
-        }
-        // the smooth end of the pile-up is no noise
-        let terms = |p: &[f64; 2]| [1.0, p[0] / radius, tail(p[0], radius)];
-        let rows: Vec<_> = far.iter().map(|p| (terms(p), p[1], 1.0)).collect();
-        let line = least_squares::solve(&rows)?;
-        let smooth = |p: &[f64; 2]| terms(p).iter().zip(&line).map(|(term, of)| term * of).sum::<f64>();
-        let left: Vec<f64> = far.iter().map(|p| p[1] - smooth(p)).collect();
-        squares += left.iter().map(|x| x * x).sum::<f64>();
-        products += left.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
-        pairs += (left.len() - 1) as f64;
-        spacing += far[far.len() - 1][0] - far[0][0];
-        places += far.iter().map(|p| p[0].abs()).sum::<f64>();
-        count += far.len();
-        taken += line.len();
-    }
-    if count < MIN_FAR_POINTS || squares <= 0.0 {
-        return None;
-    }
-    let freedom = count as f64 - taken as f64;
-    let correlation = products / pairs / (squares / count as f64);
-    let chance = 2.0 / (count as f64).sqrt();
-    let correlation_length =
-        if correlation > chance { -spacing / pairs / correlation.min(0.98).ln() } else { 0.0 };
-    let place = places / count as f64;
-    Some(FarField { noise: (squares / freedom).sqrt(), correlation_length, freedom, place })
 }
 
 /// The numbers of an imprint from `points` (r, z) of the surface after unloading and the contact `radius`
@@ -295,42 +250,6 @@ mod tests {
         }
         let [pile_up, residual, rim] = outstanding(&numbers);
         assert!((pile_up - 0.1).abs() < 1e-3 && (residual - 1.0).abs() < 1e-6 && (rim - 3.0).abs() < 1e-9);
-    }
-
-    /// Roughness of 20 nm whose neighbours, 0.1 um apart, are alike by exp(-1/3): made by a fixed rule, an
-    /// autoregression of a hash.
-    #[test]
-    fn the_far_field_tells_noise_and_its_correlation() {
-        let alike = (-1.0_f64 / 3.0).exp();
-        let (mut seed, mut rough) = (7_u64, 0.0);
-        let mut draw = || {
-            let uniform = |s: &mut u64| {
-                *s = s.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (*s >> 11) as f64 / (1_u64 << 53) as f64
-            };
-            // the sum of twelve has a variance of 1
-            (0..12).map(|_| uniform(&mut seed)).sum::<f64>() - 6.0
-        };
-        let points: Vec<[f64; 2]> = (-90..=90)
-            .map(|i| {
-                rough = alike * rough + (1.0 - alike * alike).sqrt() * draw();
-                let r = 0.1 * f64::from(i);
-                [1e-6 * r, 1e-6 * surface(r.abs()) + 20e-9 * rough]
-            })
-            .collect();
-        let far = far_field(&points, 3e-6).unwrap();
-        // 60 points of which each third is new: a quarter of the deviation, half of the length
-        assert!((far.noise / 20e-9 - 1.0).abs() < 0.35, "{far:?}");
-        assert!((0.1e-6..0.7e-6).contains(&far.correlation_length), "{far:?}");
-        // the end of a pile-up of 200 nm is ten times as large as this noise, and smooth
-        let smooth = |p: &[f64; 2]| [p[0], 200e-9 * tail(p[0], 3e-6) + 2e-9 * draw()];
-        let piled: Vec<[f64; 2]> = points.iter().filter(|p| p[0] != 0.0).map(smooth).collect();
-        let far = far_field(&piled, 3e-6).unwrap();
-        assert!((far.noise / 2e-9 - 1.0).abs() < 0.35, "{far:?}");
-        assert!(far.correlation_length < 0.1e-6, "{far:?}");
-        let white: Vec<[f64; 2]> = points.iter().map(|p| [p[0], 20e-9 * draw()]).collect();
-        let far = far_field(&white, 3e-6).unwrap();
-        assert!((far.noise / 20e-9 - 1.0).abs() < 0.25 && far.correlation_length < 0.1e-6, "{far:?}");
     }
 
     #[test]

@@ -3,7 +3,8 @@
 //! Instruments write them as they like: a line that begins at its end and is tilted, a list of points for a
 //! map, heights that count down. What a file does not say is [asked](Reading) of its user.
 
-use crate::imprint::{self, FARTHEST_RADII};
+use crate::far_field::tail;
+use crate::imprint::FARTHEST_RADII;
 use asperity_formats::dimension::Dimension;
 use asperity_formats::surface::{self, Measured, Request, Spacing};
 use asperity_formats::text::{Asked, Quantity, read_series};
@@ -248,7 +249,7 @@ fn radial_mean(
 fn ground(means: &[[f64; 2]], radius: f64) -> f64 {
     let far = || means.iter().filter(|p| p[0] > LEVEL_RADII * radius && p[0] < FARTHEST_RADII * radius);
     let reach = far().map(|p| p[0]).fold(0.0, f64::max);
-    let rows: Vec<_> = far().map(|p| ([1.0, imprint::tail(p[0], radius)], p[1], 1.0)).collect();
+    let rows: Vec<_> = far().map(|p| ([1.0, tail(p[0], radius)], p[1], 1.0)).collect();
     match least_squares::solve(&rows) {
         Some([ground, _]) if reach > GROUND_RADII * radius => ground,
         _ => 0.0,

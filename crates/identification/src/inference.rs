@@ -241,7 +241,7 @@ fn residual(
         };
         let square = differences[..loading].iter().map(|d| d * d).sum::<f64>() / loading.max(1) as f64;
         let noise = match &e.data {
-            Data::Imprint(imprint) => imprint.noise / e.depth,
+            Data::Imprint(imprint) => imprint.deviation() / e.depth,
             _ => e.noise,
         };
         let (name, rms) = (e.name.clone(), square.sqrt());
