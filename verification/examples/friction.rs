@@ -144,7 +144,7 @@ fn fine_strip(report: &mut Report) -> Done {
             return Err(format!("the strip stopped: {}", stopped.reason).into());
         }
         for depth in [0.001, 0.002, 0.005] {
-            let after = outcome.curve.iter().find(|row| row.depth >= depth * half).ok_or("not reached")?;
+            let after = outcome.rows.iter().find(|row| row.depth >= depth * half).ok_or("not reached")?;
             let pressure = after.force / (2.0 * half) * 3_f64.sqrt() / STRENGTH;
             report.line(&format!(
                 "| {across} | {:.2} | {pressure:.3} | {:+.1} |",
