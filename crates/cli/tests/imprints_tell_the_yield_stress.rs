@@ -122,6 +122,21 @@ fn an_imprint_tells_the_yield_stress_that_its_curve_leaves_open() {
     assert!((peaks[1] / peaks[0] - 1.0).abs() < 0.02, "{peaks:?}");
 }
 
+/// Height (nm) over the place (um) of the profile, straight between its points.
+fn profile(place: &Place) -> impl Fn(f64) -> f64 {
+    let text = place.text("profile.csv");
+    let point = |line: &str| {
+        let (r, z) = line.split_once(';').unwrap();
+        [r.parse().unwrap(), z.parse().unwrap()]
+    };
+    let points: Vec<[f64; 2]> = text.lines().skip(1).map(point).collect();
+    move |r| {
+        let k = points.partition_point(|p| p[0] < r).clamp(1, points.len() - 1);
+        let ([a, low], [b, high]) = (points[k - 1], points[k]);
+        low + (r.min(b) - a) / (b - a) * (high - low)
+    }
+}
+
 /// A ball's imprint of a depth 10 % less than that of the curve is of another indent, and so is one whose
 /// pile-up is 0.05 of the depth higher (of 0.1; n less by 0.05): another metal explains each halfway, so that
 /// the sum of squares alone is hardly too large, but none explains both. Under one sharp cone a metal of
@@ -134,6 +149,11 @@ fn an_imprint_of_another_depth_or_pile_up_is_rejected() {
     for (k, read) in reads.into_iter().enumerate() {
         let place = Place::with_scene("");
         twin_under(BALL, &place, read);
+        // points that are dense enough to tell their noise
+        let height = profile(&place);
+        let rows = (0..140).map(|i| 0.1 * f64::from(i)).map(|r| format!("{r:.1};{:.3}\n", height(r)));
+        std::fs::write(place.path("profile.csv"), rows.fold("r (um);z (nm)\n".into(), |t: String, r| t + &r))
+            .unwrap();
         for noise in [", noise = \"5 nm\"", ""] {
             let text = FIT.replace(CONE, BALL) + &format!("imprint = {{ file = \"profile.csv\"{noise} }}\n");
             let found = fit_of(&place, &text, "out");
@@ -152,20 +172,7 @@ fn an_imprint_of_another_depth_or_pile_up_is_rejected() {
 fn a_map_of_other_habits_is_read_as_the_fit_says() {
     let place = Place::with_scene("");
     twin(&place, |z| z);
-    let profile: Vec<[f64; 2]> = place
-        .text("profile.csv")
-        .lines()
-        .skip(1)
-        .map(|line| {
-            let (r, z) = line.split_once(';').unwrap();
-            [r.parse().unwrap(), z.parse().unwrap()]
-        })
-        .collect();
-    let height = |r: f64| {
-        let k = profile.partition_point(|p| p[0] < r).clamp(1, profile.len() - 1);
-        let ([a, low], [b, high]) = (profile[k - 1], profile[k]);
-        low + (r.min(b) - a) / (b - a) * (high - low)
-    };
+    let height = profile(&place);
     let (mut rows, mut points) = (String::new(), String::from("X [um]\tY [um]\tZ [nm]\n"));
     for i in 0..91 {
         for k in 0..91 {
