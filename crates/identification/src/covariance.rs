@@ -111,7 +111,11 @@ impl Experiment {
             Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured),
             Data::Imprint(imprint) => {
                 let radius = imprint::radius_over_depth(&expected.logarithms) * self.true_depth(&expected);
-                let [noise, model] = imprint.covariances(radius, self.depth);
+                let [mut noise, model] = imprint.covariances(radius, self.depth);
+                let local = imprint::local_variance(self.told_deviations()[0]);
+                for i in 0..noise.nrows() {
+                    noise[(i, i)] += local * model[(i, i)];
+                }
                 Covariance::of_the_first(noise, model)
             }
             Data::ImprintNumbers(numbers) => {

@@ -165,6 +165,12 @@ impl Imprint {
     }
 }
 
+/// Variance over the depth, of each height by itself, of finite elements whose heights are off by the standard
+/// deviation `told`: what that is more than at `standard` scatters from element to element.
+pub fn local_variance(told: f64) -> f64 {
+    (told * told - HEIGHT_ERROR * HEIGHT_ERROR).max(0.0)
+}
+
 /// The noise of heights over an imprint of `depth`: as it is stated, else as the far field tells it, else
 /// assumed.
 fn noise(far: Option<&FarField>, stated: StatedNoise, depth: f64) -> Vec<NoisePart> {
