@@ -165,8 +165,8 @@ impl Imprint {
     }
 }
 
-/// Variance over the depth, of each height by itself, of finite elements whose heights are off by the standard
-/// deviation `told`: what that is more than at `standard` scatters from element to element.
+/// Variance over the depth, of each height by itself, of finite elements whose heights are off by the
+/// standard deviation `told`: what that is more than at `standard` scatters from element to element.
 pub fn local_variance(told: f64) -> f64 {
     (told * told - HEIGHT_ERROR * HEIGHT_ERROR).max(0.0)
 }
