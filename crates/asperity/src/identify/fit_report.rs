@@ -5,6 +5,7 @@ use super::result::Identification;
 use crate::error::Error;
 use crate::page::{self, Numbers, Report};
 use crate::results::numbers::significant;
+use asperity_identification::identifiability::Decided;
 use asperity_identification::numbers::{CurveResidual, Found};
 use maud::{Markup, html};
 
@@ -41,15 +42,7 @@ impl Identification {
             h2 { "Numbers" }
             (page::table(caption, &["quantity", "value", "95 % interval", "identifiable"], &parameters))
             (self.stresses(&numbers))
-            @if !self.decided.is_empty() {
-                (page::table(
-                    "How many times as wide each interval would be without one of the measurements.",
-                    &["left out", "interval of", "times as wide"],
-                    &self.decided.iter().flat_map(|d| d.widening.iter().map(|(name, by)| {
-                        vec![html! { (d.measurement) }, html! { (name.replace('_', " ")) }, html! { (significant(*by)) }]
-                    })).collect::<Vec<_>>(),
-                ))
-            }
+            (self.decisions())
             h2 { "Curves" }
             @if let Some(forces) = self.drawn.forces() {
                 (page::chart(&forces, "Measured points of force over depth, and the fit through them.", "Measured points and the fit.")?)
@@ -110,6 +103,19 @@ impl Identification {
         let told = told.map(|(i, s)| row(percent(s.plastic_strain), format!("/stress_strain/{i}")));
         let rows: Vec<_> = best.into_iter().chain(told).collect();
         page::table("Yield stress, MPa", &["plastic strain", "stress", "95 % interval"], &rows)
+    }
+
+    /// Widening of the intervals without each of several measurements.
+    fn decisions(&self) -> Markup {
+        let row = |measurement: &String, (name, by): (&String, &f64)| {
+            vec![html! { (measurement) }, html! { (name.replace('_', " ")) }, html! { (significant(*by)) }]
+        };
+        let of_one = |d: &Decided| d.widening.iter().map(|w| row(&d.measurement, w)).collect::<Vec<_>>();
+        let rows: Vec<_> = self.decided.iter().flat_map(of_one).collect();
+        let caption = "How many times as wide each interval would be without one of the measurements.";
+        html! {
+            @if !rows.is_empty() { (page::table(caption, &["left out", "interval of", "times as wide"], &rows)) }
+        }
     }
 
     /// What the fit leaves of each measurement.
