@@ -5,7 +5,7 @@
 //! and Vlassak 2024). Heights stand over the deepest depth h, places over the contact radius a under load: so
 //! a profile varies smoothly with the metal, and that of a sharp cone does not depend on the depth.
 
-use crate::far_field::{FAR_RADII, FarField, MIN_FAR_POINTS, NoisePart, far_field};
+use crate::far_field::{FAR_RADII, FarField, MIN_FAR_POINTS, NoisePart, apart, far_field};
 use crate::interpolation::{alike, linear_between};
 use asperity_simulation::scene::Accuracy;
 use nalgebra::DMatrix;
@@ -146,15 +146,15 @@ impl Imprint {
     /// elements with a variance of 1 adds, for a contact of the radius `radius`.
     pub fn covariances(&self, radius: f64, depth: f64) -> [DMatrix<f64>; 2] {
         let count = self.points.len();
-        let pair = |of: &dyn Fn(f64, f64, bool) -> f64| {
-            DMatrix::from_fn(count, count, |i, j| of(self.points[i][0], self.points[j][0], i == j))
+        let pair = |of: &dyn Fn(f64, f64, f64) -> f64| {
+            DMatrix::from_fn(count, count, |i, j| {
+                let [a, b] = [i, j].map(|k| self.points[k][0]);
+                of(a, b, apart(i, j, [a, b]))
+            })
         };
-        let noise = pair(&|a, b, same| {
-            let alike = |part: &NoisePart| match part.length {
-                length if length > 0.0 => part.covariance(a - b),
-                _ => part.covariance(if same { 0.0 } else { f64::INFINITY }),
-            };
-            let together = self.noise.iter().map(alike).sum::<f64>() / (depth * depth);
+        let noise = pair(&|a, b, apart| {
+            let together =
+                self.noise.iter().map(|part| part.covariance(apart)).sum::<f64>() / (depth * depth);
             let levelling = LEVELLING_SHARE.powi(2) * (1.0 + a * b / (radius * radius));
             self.of_a_ring(a) * self.of_a_ring(b) * together + levelling
         });
