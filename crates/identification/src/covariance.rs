@@ -1,11 +1,12 @@
 //! Covariance of the differences between a measurement and what finite elements expect.
 
-use super::experiment::{Data, Expected, Experiment, recovery};
+use super::experiment::{Data, Experiment};
 use super::imprint;
 use super::interpolation::alike;
 use super::parameters::Unknowns;
 use crate::measured_curve::Measured;
-use nalgebra::{Cholesky, DMatrix, Dyn};
+use asperity_numerics::least_squares::{Line, powers, solve};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Logarithms of the depth over which the force that a body is expected to need is too large or too small
 /// alike. That of a sharp cone is one number, K, off alike at every depth.
@@ -17,6 +18,9 @@ const STATED_DEPTH_SHARE: f64 = 0.2;
 /// standard deviation over that of the whole recovery: an unloading is read at few forces, at a few steps.
 const ALIKE_FORCE_SHARE: f64 = 0.25;
 const WAY_SHAPE_SHARE: f64 = 0.5;
+
+/// Points of an unloading up to which a line is drawn through them, not a parabola.
+const ENOUGH_FOR_A_PARABOLA: usize = 5;
 
 /// Effect on the difference at a point of a curve of errors of the expected force and of the unloading curve.
 struct ErrorOfAPoint {
@@ -49,6 +53,28 @@ impl Covariance {
     /// The factor of the covariance with the model's standard deviations; `None` where it has none.
     pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
         self.sum(deviations).cholesky()
+    }
+
+    /// What variances of the model that grow do to first order to `whitened` differences, independent of each
+    /// other by `factor`.
+    pub fn growth_by_variances(
+        &self,
+        factor: &Cholesky<f64, Dyn>,
+        whitened: &DVector<f64>,
+    ) -> [DVector<f64>; 3] {
+        let lower = factor.l_dirty();
+        let weights = lower.tr_solve_lower_triangular(whitened);
+        [0, 1, 2].map(|k| {
+            let part = &self.model[k];
+            let change = weights.as_ref().and_then(|w| lower.solve_lower_triangular(&(part * w)));
+            change.map_or(DVector::zeros(whitened.len()), |change| -0.5 * change)
+        })
+    }
+
+    /// Growth of ln det C with each variance of the model.
+    pub fn growth_of_the_logarithm(&self, factor: &Cholesky<f64, Dyn>) -> [f64; 3] {
+        let inverse = factor.inverse();
+        [0, 1, 2].map(|k| inverse.dot(&self.model[k]))
     }
 
     fn sum(&self, deviations: [f64; 3]) -> DMatrix<f64> {
@@ -93,12 +119,11 @@ impl Experiment {
         let expected = self.expected(unknowns, point, false)?;
         let covariance = match &self.data {
             Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
-                let share = 1.0 - self.features(&expected)[2];
                 let given = [
                     loading_curvature.map(|_| [1.0, 0.0, 0.0]),
                     unloading_slope.map(|_| [0.0, 1.0, 0.0]),
                     // what is said of the returned work is said of its complement, less
-                    plastic_work_ratio.map(|data| [0.0, 0.0, share / data]),
+                    plastic_work_ratio.map(|data| [0.0, 0.0, (1.0 - data) / data]),
                 ];
                 let effects: Vec<[f64; 3]> = given.into_iter().flatten().collect();
                 let count = effects.len();
@@ -108,7 +133,7 @@ impl Experiment {
                 let noise = DMatrix::identity(count, count) * self.noise.powi(2);
                 Covariance { noise, model: [part(0), part(1), part(2)] }
             }
-            Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured),
+            Data::Curve(measured) => self.covariance_of_a_curve(measured),
             Data::Imprint(imprint) => {
                 let radius = imprint::radius_over_depth(&expected.logarithms) * self.true_depth(&expected);
                 let [mut noise, model] = imprint.covariances(radius, self.depth);
@@ -134,7 +159,7 @@ impl Experiment {
         Some(Covariance { noise: covariance.sum(corrected), ..covariance })
     }
 
-    fn covariance_of_a_curve(&self, expected: &Expected, measured: &Measured) -> Covariance {
+    fn covariance_of_a_curve(&self, measured: &Measured) -> Covariance {
         let load = measured.loading.len();
         let length = if self.is_similar() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
         let shallow =
@@ -147,8 +172,8 @@ impl Experiment {
             ErrorOfAPoint { place: depth.ln(), by_the_force, by_the_way: [0.0; 2], share: 1.0 }
         });
         let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
-        let slopes: Vec<f64> =
-            shares.iter().map(|share| share * slope_back(&expected.logarithms, *share)).collect();
+        // measured, not expected: deviations that change with the metal would change what fits best
+        let slopes = slopes_of_the_way_back(measured, self.depth);
         let of_the_way_back = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
             let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
             // near the peak the way is the slope's, at the end the whole
@@ -157,8 +182,11 @@ impl Experiment {
         });
         let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
         let count = errors.len();
+        // where readings scatter by themselves, a mean of fewer scatters more
+        let [more, fewer] = measured.averaged;
+        let scatter = if self.noise_correlation == 0.0 { (more / fewer).sqrt() } else { 1.0 };
         let noise = |i: usize| {
-            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).max(1e-5);
+            let of_a_depth = |slope: &f64| (self.noise * scatter * slope.max(0.02)).max(1e-5);
             i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
         };
         let part = |of_a_pair: &dyn Fn(&ErrorOfAPoint, &ErrorOfAPoint) -> f64| {
@@ -182,8 +210,89 @@ impl Experiment {
     }
 }
 
-/// The growth of the recovery as the share of the force falls.
-fn slope_back(logarithms: &[f64], share: f64) -> f64 {
-    let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
-    (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)
+/// Ways back over `depth`, by a relative change of the force at each measured point of the unloading: by a
+/// parabola in F^(2/3), which nearly is a line (Oliver and Pharr, J. Mater. Res. 7 (1992) 1564); a line where
+/// the points are too few for it.
+fn slopes_of_the_way_back(measured: &Measured, depth: f64) -> Vec<f64> {
+    let places: Vec<f64> =
+        measured.unloading.iter().map(|p| (p[1] / measured.peak[1]).powf(2.0 / 3.0)).collect();
+    let points: Vec<[f64; 2]> =
+        places.iter().zip(&measured.unloading).map(|(u, p)| [*u, p[0] / depth]).collect();
+    let rows: Vec<([f64; 3], f64, f64)> = points.iter().map(|[u, h]| (powers(*u), *h, 1.0)).collect();
+    let enough = points.len() > ENOUGH_FOR_A_PARABOLA;
+    let [along, bent] = match solve(&rows).filter(|_| enough) {
+        Some([_, along, bent]) => [along, bent],
+        None => [Line::fit(&points).slope, 0.0],
+    };
+    let slope = |u: &f64| 2.0 / 3.0 * u * (along + 2.0 * bent * u);
+    places.iter().map(slope).map(|slope| if slope.is_finite() { slope.max(0.0) } else { 0.0 }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sum of squares and ln det C change with each variance of the model as differences of them say.
+    #[test]
+    fn growth_by_a_variance_is_the_derivative_by_differences() {
+        let part = |k: usize| {
+            let along = DVector::from_fn(4, |i, _| ((i + 1) as f64 * (k + 1) as f64).sin());
+            &along * along.transpose()
+        };
+        let noise = DMatrix::from_fn(4, 4, |i, j| if i == j { 1.0 + 0.1 * i as f64 } else { 0.2 });
+        let covariance = Covariance { noise, model: [part(0), part(1), part(2)] };
+        let differences = DVector::from_vec(vec![0.7, -1.1, 0.4, 2.0]);
+        let variances = [0.5, 1.5, 0.2_f64];
+        let factor = |variances: [f64; 3]| covariance.factor(variances.map(f64::sqrt)).unwrap();
+        let whitened =
+            |variances: [f64; 3]| factor(variances).l_dirty().solve_lower_triangular(&differences).unwrap();
+        let here = factor(variances);
+        let changes = covariance.growth_by_variances(&here, &whitened(variances));
+        let logarithms = covariance.growth_of_the_logarithm(&here);
+        for k in 0..3 {
+            let step = 1e-5;
+            let moved = |by: f64| {
+                let mut there = variances;
+                there[k] += by;
+                there
+            };
+            let slope = |of: &dyn Fn([f64; 3]) -> f64| (of(moved(step)) - of(moved(-step))) / (2.0 * step);
+            let of_the_sum = slope(&|v| whitened(v).norm_squared());
+            let told = 2.0 * whitened(variances).dot(&changes[k]);
+            assert!((told - of_the_sum).abs() < 1e-7, "{k} {told} {of_the_sum}");
+            let of_the_logarithm = slope(&|v| log_determinant(&factor(v)));
+            assert!((logarithms[k] - of_the_logarithm).abs() < 1e-7, "{k}");
+        }
+    }
+
+    /// h = 0.9 + 0.1 (F/F₀)^(1/m) grows by 0.1 (F/F₀)^(1/m)/m for each relative change of the force; a parabola
+    /// in F^(2/3) follows exponents of the field within some percent.
+    #[test]
+    fn ways_back_follow_the_measured_unloading() {
+        for m in [1.25, 1.5, 1.6] {
+            let point = |share: f64| [1e-6 * (0.9 + 0.1 * share.powf(1.0 / m)), 5e-3 * share];
+            let unloading: Vec<[f64; 2]> = (1..=18).map(|i| point(1.0 - f64::from(i) / 20.0)).collect();
+            let measured = Measured {
+                loading: Vec::new(),
+                unloading,
+                peak: point(1.0),
+                loaded: 1e-6,
+                averaged: [1.0; 2],
+                notes: Vec::new(),
+            };
+            for (p, slope) in measured.unloading.iter().zip(slopes_of_the_way_back(&measured, 1e-6)) {
+                let expected = 0.1 * (p[1] / 5e-3).powf(1.0 / m) / m;
+                assert!((slope / expected - 1.0).abs() < 0.06, "{m} {} {slope} {expected}", p[1]);
+            }
+        }
+        let two = Measured {
+            loading: Vec::new(),
+            unloading: vec![[0.95e-6, 3e-3], [0.93e-6, 1e-3]],
+            peak: [1e-6, 5e-3],
+            loaded: 1e-6,
+            averaged: [1.0; 2],
+            notes: Vec::new(),
+        };
+        assert!(slopes_of_the_way_back(&two, 1e-6).iter().all(|slope| *slope > 0.0 && *slope < 0.1));
+    }
 }

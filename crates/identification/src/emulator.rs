@@ -38,6 +38,8 @@ pub struct Emulator {
     amplitudes: Vec<f64>,
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
+    /// The same of answers without an error.
+    exact: Option<Cholesky<f64, Dyn>>,
     weights: DMatrix<f64>,
     /// Correction by a finer level, added to all of them.
     lift: Vec<f64>,
@@ -102,6 +104,8 @@ pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     }
 }
 
+/// Share of the variance of an answer that rounding takes.
+const ROUNDING: f64 = 1e-6;
 /// Least scatter about a polynomial: what the mesh, which differs from metal to metal, leaves.
 const MIN_AMPLITUDE: f64 = 0.003;
 
@@ -131,7 +135,7 @@ impl Emulator {
 
     fn new(trend: Trend, lengths: Vec<f64>, amplitudes: Vec<f64>) -> Emulator {
         let (weights, lift) = (DMatrix::zeros(0, amplitudes.len()), vec![0.0; amplitudes.len()]);
-        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, weights, lift }
+        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, exact: None, weights, lift }
     }
 
     /// Adds the answer to a question.
@@ -182,8 +186,12 @@ impl Emulator {
             self.correlation(&self.nodes[i].place, &self.nodes[j].place)
         });
         for i in 0..count {
-            // half of a 95 % bound, and not less than what rounding takes
-            matrix[(i, i)] += (0.5 * self.nodes[i].error / first).powi(2).max(1e-6);
+            matrix[(i, i)] += ROUNDING;
+        }
+        self.exact = matrix.clone().cholesky();
+        for i in 0..count {
+            // half of a 95 % bound
+            matrix[(i, i)] += (0.5 * self.nodes[i].error / first).powi(2);
         }
         let rest = DMatrix::from_fn(count, self.amplitudes.len(), |i, j| self.nodes[i].logarithms[j]);
         self.factor = matrix.cholesky();
@@ -213,11 +221,12 @@ impl Emulator {
         self.nodes.iter().map(|node| self.correlation(&place, &node.place)).fold(0.0, f64::max)
     }
 
-    /// Standard deviations of the residuals of loading, slope and recovery.
+    /// Standard deviations of what is left of loading, slope and recovery between the computed metals. At one
+    /// of them nothing is: its own error is told beside.
     pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
         let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
-        let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
+        let known = self.exact.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
         let share = (1.0 - known).clamp(0.0, 1.0).sqrt();
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
         if question.imprint {

@@ -13,7 +13,7 @@ use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
 use crate::objective::{Misfit, Objective};
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
-use crate::profile_likelihood::{GROWTH, Interval, Profile};
+use crate::profile_likelihood::{Interval, Profile};
 use crate::verdict::verdict;
 use indexmap::IndexMap;
 use nalgebra::DVector;
@@ -138,6 +138,10 @@ pub fn infer(
     })
 }
 
+/// Growth of the sum of squares by which measurements that know no first touch or compliance would need one of
+/// them in 1 of 1,000 cases, for each that is sought.
+const NEEDED_GROWTH: f64 = 10.828;
+
 /// The sum of squares from which it grows to the end of an interval: while first touch and compliance may be
 /// 0, that of the fit that holds them there. Growth from the lower sum with them free would take metals out
 /// of an interval for no more than an unknown that was added.
@@ -148,7 +152,8 @@ fn lowest_without_nuisances(objective: &Objective<'_>, unknowns: &Unknowns, best
     }
     let bounds: Vec<[f64; 2]> = held.parameters.iter().map(|p| p.bounds).collect();
     let without = minimise(objective, &best.point, &bounds).chi2;
-    if without <= best.chi2 + GROWTH { without.max(best.chi2) } else { best.chi2 }
+    let freed = held.parameters.iter().zip(&unknowns.parameters).filter(|(h, u)| h != u).count();
+    if without <= best.chi2 + freed as f64 * NEEDED_GROWTH { without.max(best.chi2) } else { best.chi2 }
 }
 
 /// Correlation of an unknown of the metal with friction from which friction decides it.

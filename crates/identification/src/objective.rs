@@ -99,17 +99,26 @@ impl<'a> Objective<'a> {
     /// The differences at `point`, independent of each other by the `factors` of their covariances, and the
     /// residual of the latter.
     fn whitened(&self, factors: &[Cholesky<f64, Dyn>], point: &[f64]) -> Option<Vec<f64>> {
-        let mut all = Vec::new();
-        for (experiment, factor) in self.experiments.iter().zip(factors) {
-            let differences = DVector::from_vec(experiment.differences(self.unknowns, point, false)?);
-            let whitened = factor.l_dirty().solve_lower_triangular(&differences)?;
-            if whitened.iter().any(|x| !x.is_finite()) {
-                return None;
-            }
-            all.extend(whitened.iter());
-        }
+        let each = self.independent(factors, point)?;
+        let mut all: Vec<f64> = each.iter().flat_map(|whitened| whitened.iter().copied()).collect();
         all.push((logarithm(factors) - self.least_logarithm).max(0.0).sqrt());
         Some(all)
+    }
+
+    /// The differences of each measurement at `point`, independent of each other by the `factors`.
+    fn independent(&self, factors: &[Cholesky<f64, Dyn>], point: &[f64]) -> Option<Vec<DVector<f64>>> {
+        let of = |(experiment, factor): (&Experiment, &Cholesky<f64, Dyn>)| {
+            let differences = DVector::from_vec(experiment.differences(self.unknowns, point, false)?);
+            let whitened = factor.l_dirty().solve_lower_triangular(&differences)?;
+            whitened.iter().all(|x| x.is_finite()).then_some(whitened)
+        };
+        self.experiments.iter().zip(factors).map(of).collect()
+    }
+
+    /// Variances of the model at `point`, of each measurement.
+    fn variances(&self, point: &[f64]) -> Option<Vec<[f64; 3]>> {
+        let of = |e: &Experiment| Some(e.model_deviations(self.unknowns, point)?.map(|d| d * d));
+        self.experiments.iter().map(of).collect()
     }
 
     /// The bounds of the coordinates.
@@ -130,7 +139,34 @@ impl ResidualFunction for Objective<'_> {
 
     fn about(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
         let factors = self.factors(point)?;
-        Some(Box::new(move |near| self.whitened(&factors, near)))
+        Some(Box::new(move |at| self.whitened(&factors, at)))
+    }
+
+    fn near(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+        let (factors, variances) = (self.factors(point)?, self.variances(point)?);
+        let whitened = self.independent(&factors, point)?;
+        let each = || self.covariances.iter().zip(&factors);
+        let changes: Vec<[DVector<f64>; 3]> =
+            each().zip(&whitened).map(|((c, factor), z)| c.growth_by_variances(factor, z)).collect();
+        let growth = logarithm(&factors) - self.least_logarithm;
+        let counts = self.least_logarithm.is_finite();
+        let growths: Vec<[f64; 3]> = each()
+            .map(|(c, factor)| if counts { c.growth_of_the_logarithm(factor) } else { [0.0; 3] })
+            .collect();
+        Some(Box::new(move |at| {
+            let (mut all, mut growth) = (Vec::new(), growth);
+            let found = self.independent(&factors, at)?.into_iter().zip(self.variances(at)?);
+            for (i, (mut differences, now)) in found.enumerate() {
+                for k in 0..3 {
+                    let more = now[k] - variances[i][k];
+                    differences.axpy(more, &changes[i][k], 1.0);
+                    growth += more * growths[i][k];
+                }
+                all.extend(differences.iter());
+            }
+            all.push(growth.max(0.0).sqrt());
+            Some(all)
+        }))
     }
 }
 

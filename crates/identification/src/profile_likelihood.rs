@@ -136,7 +136,12 @@ impl ResidualFunction for Conditioned<'_> {
 
     fn about(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
         let residuals = self.residuals.about(point)?;
-        Some(Box::new(move |near| self.with_the_condition(residuals(near)?, near)))
+        Some(Box::new(move |at| self.with_the_condition(residuals(at)?, at)))
+    }
+
+    fn near(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+        let residuals = self.residuals.near(point)?;
+        Some(Box::new(move |at| self.with_the_condition(residuals(at)?, at)))
     }
 }
 

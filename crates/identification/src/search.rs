@@ -61,10 +61,8 @@ pub struct Found {
 
 /// Rounds of asking at the ends of a valley.
 const VALLEY_ROUNDS: usize = 2;
-/// Correlations with the nearest computed metal: below the one an end of a valley is asked, above the other
-/// nothing is asked again.
+/// Correlation with the nearest computed metal below which an end of a valley is asked.
 const FAR_NEARNESS: f64 = 0.7;
-const TOLD_NEARNESS: f64 = 0.97;
 /// Growth of ln det C of a measurement, by what its emulator does not know of a metal, below which nothing is
 /// asked again: a twentieth of one standard deviation.
 const TOLD_GROWTH: f64 = 0.1;
@@ -91,22 +89,14 @@ pub fn search(
     design(experiments, &held, analyses, &mut found, observer)?;
     let mut ask = Asking { accuracy, analyses, found };
     let mut best = everywhere(experiments, &held)?;
-    ask.until_settled(experiments, &held, &mut best, [0.5, 0.95], observer)?;
+    ask.until_settled(experiments, &held, &mut best, [0.5, 0.9], observer)?;
+    ask.other_minima(experiments, &held, &mut best, observer)?;
     if held.parameters != unknowns.parameters {
         let free = again(experiments, unknowns, &best.point)?;
         let other = everywhere(experiments, unknowns)?;
         best = if other.chi2 < free.chi2 - MUCH_LOWER { other } else { free };
         ask.until_settled(experiments, unknowns, &mut best, [0.9, 0.99], observer)?;
-    }
-    let found = objective(experiments, unknowns, &best.point)?.for_intervals();
-    for other in allowed_minima(&found, unknowns, &best).into_iter().take(OTHER_MINIMA) {
-        go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
-        ask.ask_at(experiments, unknowns, (std::slice::from_ref(&other.point), false), Accuracy::Draft)?;
-        let there = again(experiments, unknowns, &other.point)?;
-        best = again(experiments, unknowns, &best.point)?;
-        if there.chi2 < best.chi2 {
-            best = there;
-        }
+        ask.other_minima(experiments, unknowns, &mut best, observer)?;
     }
     ask.found.minimum = best;
     Ok(ask.found)
@@ -193,6 +183,27 @@ impl Asking<'_> {
         }
         Ok(())
     }
+
+    /// Asks at other metals that the measurements allow; `best` goes to the one that fits better then.
+    fn other_minima(
+        &mut self,
+        experiments: &mut [Experiment],
+        unknowns: &Unknowns,
+        best: &mut Minimum,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), SearchError> {
+        let found = objective(experiments, unknowns, &best.point)?.for_intervals();
+        for other in allowed_minima(&found, unknowns, best).into_iter().take(OTHER_MINIMA) {
+            go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
+            self.ask_at(experiments, unknowns, (std::slice::from_ref(&other.point), false), Accuracy::Draft)?;
+            let there = again(experiments, unknowns, &other.point)?;
+            *best = again(experiments, unknowns, &best.point)?;
+            if there.chi2 < best.chi2 {
+                *best = there;
+            }
+        }
+        Ok(())
+    }
 }
 
 fn go_on(observer: &mut Observer<'_>, share: f64, text: &str) -> Result<(), SearchError> {
@@ -268,19 +279,26 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let along = along_coordinate(i, &deviations, &correlation);
     let ends = profile.ends_of_coordinate(std::slice::from_ref(best), i, deviations[i], &along);
     let is_far = |point: &Vec<f64>| {
-        let of = |e: &Experiment| !e.shifts_the_atlas() && is_untold(e, unknowns, point, FAR_NEARNESS);
+        let of = |e: &Experiment| {
+            !e.shifts_the_atlas()
+                && nearness(e, unknowns, point) < FAR_NEARNESS
+                && is_untold(e, unknowns, point)
+        };
         experiments.iter().any(of)
     };
     ends.into_iter().map(|end| end.point).filter(is_far).collect()
 }
 
-/// True where finite elements would tell more of the metal at `point`: no computed metal is as near as
-/// `nearness`, and what the emulator does not know widens the covariance.
-fn is_untold(e: &Experiment, unknowns: &Unknowns, point: &[f64], nearness: f64) -> bool {
-    let Some(question) = e.design_point(unknowns, point) else { return false };
-    let near = e.emulator.nearness(&question);
+/// Correlation of the metal at `point` with the computed one that is nearest to it.
+fn nearness(e: &Experiment, unknowns: &Unknowns, point: &[f64]) -> f64 {
+    e.design_point(unknowns, point).map_or(1.0, |question| e.emulator.nearness(&question))
+}
+
+/// True where finite elements would tell more of the metal at `point`: what the emulator does not know of it
+/// widens the covariance.
+fn is_untold(e: &Experiment, unknowns: &Unknowns, point: &[f64]) -> bool {
     let widens = || e.growth(unknowns, point).is_none_or(|growth| growth > TOLD_GROWTH);
-    near == 0.0 || near < nearness && widens()
+    nearness(e, unknowns, point) == 0.0 || widens()
 }
 
 /// Asks the finite elements of every experiment at `points`, and the emulators learn the answers; no answer
@@ -301,7 +319,7 @@ fn run_at(
             return needed;
         }
         let finer = !e.is_sharp() && level != Accuracy::Draft;
-        finer || is_untold(e, unknowns, point, TOLD_NEARNESS)
+        finer || is_untold(e, unknowns, point)
     };
     let at = |(i, e): (usize, &Experiment), p: &Vec<f64>| {
         open(e, levels[i], p).then(|| Some((i, e.design_point(unknowns, p)?))).flatten()
