@@ -183,8 +183,9 @@ impl Experiment {
         let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
         let count = errors.len();
         // where readings scatter by themselves, a mean of fewer scatters more
-        let [more, fewer] = measured.averaged;
-        let scatter = if self.noise_correlation == 0.0 { (more / fewer).sqrt() } else { 1.0 };
+        let [of_the_loading, of_the_way_back] = measured.averaged;
+        let fewer = if self.noise_correlation == 0.0 { of_the_loading / of_the_way_back } else { 1.0 };
+        let scatter = fewer.max(1.0).sqrt();
         let noise = |i: usize| {
             let of_a_depth = |slope: &f64| (self.noise * scatter * slope.max(0.02)).max(1e-5);
             i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
