@@ -100,7 +100,14 @@ impl Experiment {
         Some([0, 1, 2].map(|i| told[i].hypot(left[i])))
     }
 
-    /// The same at a computed metal, where the emulator leaves nothing open.
+    /// The same at a computed metal: what finite elements are asked for can bring no less.
+    pub fn least_deviations(&self) -> [f64; 3] {
+        let left = self.emulator.least_left(self.errors[0], self.is_imprint(), self.of_the_loading());
+        let told = self.told_deviations();
+        [0, 1, 2].map(|i| told[i].hypot(left[i]))
+    }
+
+    /// Those of finite elements by themselves.
     pub fn told_deviations(&self) -> [f64; 3] {
         // the stated errors are 95 % bounds
         self.errors.map(|error| (0.5 * error).hypot(self.model_error))
@@ -110,8 +117,17 @@ impl Experiment {
     pub fn growth(&self, unknowns: &Unknowns, point: &[f64]) -> Option<f64> {
         let covariance = self.covariance(unknowns, point)?;
         let open = covariance.factor(self.model_deviations(unknowns, point)?)?;
-        let told = covariance.factor(self.told_deviations())?;
+        let told = covariance.factor(self.least_deviations())?;
         Some(log_determinant(&open) - log_determinant(&told))
+    }
+
+    /// Mean variance of the differences at `point` by what finite elements expect.
+    pub fn variance_of_the_model(&self, unknowns: &Unknowns, point: &[f64]) -> Option<f64> {
+        let model = self.covariance(unknowns, point)?.model;
+        let deviations = self.model_deviations(unknowns, point)?;
+        let count = model[0].nrows().max(1) as f64;
+        let sum: f64 = model.iter().zip(deviations).map(|(part, d)| d * d * part.trace()).sum();
+        Some(sum / count)
     }
 
     /// Covariance of the differences at `point`, in its parts.
@@ -182,9 +198,11 @@ impl Experiment {
         });
         let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
         let count = errors.len();
-        // where readings scatter by themselves, a mean of fewer scatters more
+        // of readings that scatter by themselves a mean of fewer scatters more than that of the loading, from
+        // which the noise is
         let [of_the_loading, of_the_way_back] = measured.averaged;
-        let fewer = if self.noise_correlation == 0.0 { of_the_loading / of_the_way_back } else { 1.0 };
+        let by_themselves = !self.noise_given && self.noise_correlation == 0.0;
+        let fewer = if by_themselves { of_the_loading / of_the_way_back } else { 1.0 };
         let scatter = fewer.max(1.0).sqrt();
         let noise = |i: usize| {
             let of_a_depth = |slope: &f64| (self.noise * scatter * slope.max(0.02)).max(1e-5);

@@ -38,8 +38,6 @@ pub struct Emulator {
     amplitudes: Vec<f64>,
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
-    /// The same of answers without an error.
-    exact: Option<Cholesky<f64, Dyn>>,
     weights: DMatrix<f64>,
     /// Correction by a finer level, added to all of them.
     lift: Vec<f64>,
@@ -104,8 +102,12 @@ pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     }
 }
 
-/// Share of the variance of an answer that rounding takes.
-const ROUNDING: f64 = 1e-6;
+/// Variance of an answer with a relative `error` (95 %) over that of what is left of the trend, not less than
+/// what rounding takes.
+fn share_of_an_error(error: f64, amplitude: f64) -> f64 {
+    (0.5 * error / amplitude).powi(2).max(1e-6)
+}
+
 /// Least scatter about a polynomial: what the mesh, which differs from metal to metal, leaves.
 const MIN_AMPLITUDE: f64 = 0.003;
 
@@ -135,7 +137,7 @@ impl Emulator {
 
     fn new(trend: Trend, lengths: Vec<f64>, amplitudes: Vec<f64>) -> Emulator {
         let (weights, lift) = (DMatrix::zeros(0, amplitudes.len()), vec![0.0; amplitudes.len()]);
-        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, exact: None, weights, lift }
+        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, weights, lift }
     }
 
     /// Adds the answer to a question.
@@ -181,17 +183,12 @@ impl Emulator {
 
     fn renew(&mut self) {
         let count = self.nodes.len();
-        let first = self.amplitudes.first().copied().unwrap_or(0.01);
+        let first = self.first_amplitude();
         let mut matrix = DMatrix::from_fn(count, count, |i, j| {
             self.correlation(&self.nodes[i].place, &self.nodes[j].place)
         });
         for i in 0..count {
-            matrix[(i, i)] += ROUNDING;
-        }
-        self.exact = matrix.clone().cholesky();
-        for i in 0..count {
-            // half of a 95 % bound
-            matrix[(i, i)] += (0.5 * self.nodes[i].error / first).powi(2);
+            matrix[(i, i)] += share_of_an_error(self.nodes[i].error, first);
         }
         let rest = DMatrix::from_fn(count, self.amplitudes.len(), |i, j| self.nodes[i].logarithms[j]);
         self.factor = matrix.cholesky();
@@ -221,21 +218,41 @@ impl Emulator {
         self.nodes.iter().map(|node| self.correlation(&place, &node.place)).fold(0.0, f64::max)
     }
 
-    /// Standard deviations of what is left of loading, slope and recovery between the computed metals. At one
-    /// of them nothing is: its own error is told beside.
+    /// Standard deviations of what is left of loading, slope and recovery, of which the response has `loading`
+    /// numbers of the loading.
     pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
         let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
-        let known = self.exact.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
-        let share = (1.0 - known).clamp(0.0, 1.0).sqrt();
+        let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
+        self.left_of_the_trend(1.0 - known, question.imprint, loading)
+    }
+
+    /// The least that is left: of a trend that is the atlas, at a metal that was computed with a relative
+    /// `error` alone, where the trend keeps its part in what is expected; of one through a design of runs, which
+    /// tell of each other, nothing.
+    pub fn least_left(&self, error: f64, imprint: bool, loading: usize) -> [f64; 3] {
+        let share = match self.trend {
+            Trend::Atlas => share_of_an_error(error, self.first_amplitude()),
+            Trend::Polynomial(_) => 0.0,
+        };
+        self.left_of_the_trend(share / (1.0 + share), imprint, loading)
+    }
+
+    /// A `share` of the variance of what is left of the trend.
+    fn left_of_the_trend(&self, share: f64, imprint: bool, loading: usize) -> [f64; 3] {
+        let share = share.clamp(0.0, 1.0).sqrt();
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
-        if question.imprint {
+        if imprint {
             // of its heights, which stand behind the radius
             let heights = self.amplitudes.iter().skip(1);
             let mean = (heights.clone().map(|a| a * a).sum::<f64>() / heights.len().max(1) as f64).sqrt();
             return [share * mean, 0.0, 0.0];
         }
         [of(loading - 1), of(loading), of(loading + 1)]
+    }
+
+    fn first_amplitude(&self) -> f64 {
+        self.amplitudes.first().copied().unwrap_or(0.01)
     }
 }
 

@@ -187,6 +187,28 @@ mod tests {
         assert!((0.5..1.4).contains(&beside), "{beside}");
     }
 
+    /// A profile through the axis: each side has its own offset, tilt and end of the pile-up, and both tell of
+    /// one noise. Half of the mean square of differences at 0.1 radii, where it is alike over as much, is
+    /// 1 - 1/e; lengths that are nearly an offset, which nothing excludes, do not count in it.
+    #[test]
+    fn both_sides_of_a_profile_tell_of_one_noise() {
+        let mut seed = 3;
+        let (mut half_square, profiles) = (0.0, 40);
+        for _ in 0..profiles {
+            let [left, right] = [(); 2].map(|()| noise(&mut seed, 0.03, 0.1, 40));
+            let place = |i: usize| 1.91 + 0.03 * i as f64;
+            let right: Vec<[f64; 2]> =
+                (0..40).map(|i| [place(i), right[i] + 60.0 * tail(place(i), 1.0) + 5.0]).collect();
+            let left = (0..40).rev().map(|i| [-place(i), left[i] + 90.0 * tail(place(i), 1.0) + place(i)]);
+            let points: Vec<[f64; 2]> = left.chain(right).collect();
+            let far = far_field(&points, 1.0, None).unwrap();
+            assert_eq!(far.freedom, 74.0);
+            let of = |part: &NoisePart| part.covariance(0.0) - part.covariance(0.1);
+            half_square += far.parts.iter().map(of).sum::<f64>() / f64::from(profiles);
+        }
+        assert!((half_square / (1.0 - (-1.0_f64).exp()) - 1.0).abs() < 0.2, "{half_square}");
+    }
+
     /// Both sides of an imprint under the same places, each reading with its own noise.
     #[test]
     fn two_readings_at_one_place_are_two() {
