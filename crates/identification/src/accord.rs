@@ -49,7 +49,7 @@ fn accord(experiments: &[Experiment], i: usize, unknowns: &Unknowns, point: &[f6
             let told = read
                 .noise_freedom
                 .map_or(0.0, |freedom| room_for_the_noise(unknowns.parameters.len(), freedom));
-            // where finite elements err more than heights scatter, it matters little how well the noise is told
+            // where finite elements err more than heights scatter, it hardly matters how well noise is told
             let noise = (read.deviation() / imprint.depth).powi(2);
             let model = imprint.variance_of_the_model(unknowns, &alone.point)?;
             told * noise / (noise + model)

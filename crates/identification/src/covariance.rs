@@ -22,7 +22,8 @@ const WAY_SHAPE_SHARE: f64 = 0.5;
 /// Points of an unloading up to which a line is drawn through them, not a parabola.
 const ENOUGH_FOR_A_PARABOLA: usize = 5;
 
-/// Effect on the difference at a point of a curve of errors of the expected force and of the unloading curve.
+/// Effect on the difference at a point of a curve of errors of the expected force and of the unloading
+/// curve.
 struct ErrorOfAPoint {
     /// Logarithm of the depth over the deepest; unloading begins there.
     place: f64,
@@ -55,8 +56,8 @@ impl Covariance {
         self.sum(deviations).cholesky()
     }
 
-    /// What variances of the model that grow do to first order to `whitened` differences, independent of each
-    /// other by `factor`.
+    /// What variances of the model that grow do to first order to `whitened` differences, independent of
+    /// each other by `factor`.
     pub fn growth_by_variances(
         &self,
         factor: &Cholesky<f64, Dyn>,
@@ -189,20 +190,20 @@ impl Experiment {
         });
         let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
         // measured, not expected: deviations that change with the metal would change what fits best
-        let slopes = slopes_of_the_way_back(measured, self.depth);
-        let of_the_way_back = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
+        let slopes = slopes_of_the_unloading(measured, self.depth);
+        let of_the_unloading = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
             let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
             // near the peak the way is the slope's, at the end the whole
             let by_the_way = [way * s, way * (1.0 - s)];
             ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way, share: *s }
         });
-        let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
+        let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_unloading).collect();
         let count = errors.len();
         // of readings that scatter by themselves a mean of fewer scatters more than that of the loading, from
         // which the noise is
-        let [of_the_loading, of_the_way_back] = measured.averaged;
+        let [of_the_loading, of_the_unloading] = measured.averaged;
         let by_themselves = !self.noise_given && self.noise_correlation == 0.0;
-        let fewer = if by_themselves { of_the_loading / of_the_way_back } else { 1.0 };
+        let fewer = if by_themselves { of_the_loading / of_the_unloading } else { 1.0 };
         let scatter = fewer.max(1.0).sqrt();
         let noise = |i: usize| {
             let of_a_depth = |slope: &f64| (self.noise * scatter * slope.max(0.02)).max(1e-5);
@@ -229,10 +230,10 @@ impl Experiment {
     }
 }
 
-/// Ways back over `depth`, by a relative change of the force at each measured point of the unloading: by a
-/// parabola in F^(2/3), which nearly is a line (Oliver and Pharr, J. Mater. Res. 7 (1992) 1564); a line where
-/// the points are too few for it.
-fn slopes_of_the_way_back(measured: &Measured, depth: f64) -> Vec<f64> {
+/// Changes of the depth over `depth`, by a relative change of the force at each measured point of the
+/// unloading: by a parabola in F^(2/3), which nearly is a line (Oliver and Pharr, J. Mater. Res. 7 (1992)
+/// 1564); a line where the points are too few for it.
+fn slopes_of_the_unloading(measured: &Measured, depth: f64) -> Vec<f64> {
     let places: Vec<f64> =
         measured.unloading.iter().map(|p| (p[1] / measured.peak[1]).powf(2.0 / 3.0)).collect();
     let points: Vec<[f64; 2]> =
@@ -284,10 +285,10 @@ mod tests {
         }
     }
 
-    /// h = 0.9 + 0.1 (F/F₀)^(1/m) grows by 0.1 (F/F₀)^(1/m)/m for each relative change of the force; a parabola
-    /// in F^(2/3) follows exponents of the field within some percent.
+    /// h = 0.9 + 0.1 (F/F₀)^(1/m) grows by 0.1 (F/F₀)^(1/m)/m for each relative change of the force; a
+    /// parabola in F^(2/3) follows exponents of the field within some percent.
     #[test]
-    fn ways_back_follow_the_measured_unloading() {
+    fn slopes_follow_the_measured_unloading() {
         for m in [1.25, 1.5, 1.6] {
             let point = |share: f64| [1e-6 * (0.9 + 0.1 * share.powf(1.0 / m)), 5e-3 * share];
             let unloading: Vec<[f64; 2]> = (1..=18).map(|i| point(1.0 - f64::from(i) / 20.0)).collect();
@@ -299,7 +300,7 @@ mod tests {
                 averaged: [1.0; 2],
                 notes: Vec::new(),
             };
-            for (p, slope) in measured.unloading.iter().zip(slopes_of_the_way_back(&measured, 1e-6)) {
+            for (p, slope) in measured.unloading.iter().zip(slopes_of_the_unloading(&measured, 1e-6)) {
                 let expected = 0.1 * (p[1] / 5e-3).powf(1.0 / m) / m;
                 assert!((slope / expected - 1.0).abs() < 0.06, "{m} {} {slope} {expected}", p[1]);
             }
@@ -312,6 +313,6 @@ mod tests {
             averaged: [1.0; 2],
             notes: Vec::new(),
         };
-        assert!(slopes_of_the_way_back(&two, 1e-6).iter().all(|slope| *slope > 0.0 && *slope < 0.1));
+        assert!(slopes_of_the_unloading(&two, 1e-6).iter().all(|slope| *slope > 0.0 && *slope < 0.1));
     }
 }

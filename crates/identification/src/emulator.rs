@@ -102,8 +102,8 @@ pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     }
 }
 
-/// Variance of an answer with a relative `error` (95 %) over that of what is left of the trend, not less than
-/// what rounding takes.
+/// Variance of an answer with a relative `error` (95 %) over that of what is left of the trend, not less
+/// than what rounding takes.
 fn share_of_an_error(error: f64, amplitude: f64) -> f64 {
     (0.5 * error / amplitude).powi(2).max(1e-6)
 }
@@ -218,8 +218,8 @@ impl Emulator {
         self.nodes.iter().map(|node| self.correlation(&place, &node.place)).fold(0.0, f64::max)
     }
 
-    /// Standard deviations of what is left of loading, slope and recovery, of which the response has `loading`
-    /// numbers of the loading.
+    /// Standard deviations of what is left of loading, slope and recovery, of which the response has
+    /// `loading` numbers of the loading.
     pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
         let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
@@ -228,8 +228,8 @@ impl Emulator {
     }
 
     /// The least that is left: of a trend that is the atlas, at a metal that was computed with a relative
-    /// `error` alone, where the trend keeps its part in what is expected; of one through a design of runs, which
-    /// tell of each other, nothing.
+    /// `error` alone, where the trend keeps its part in what is expected; of one through a design of runs,
+    /// which tell of each other, nothing.
     pub fn least_left(&self, error: f64, imprint: bool, loading: usize) -> [f64; 3] {
         let share = match self.trend {
             Trend::Atlas => share_of_an_error(error, self.first_amplitude()),

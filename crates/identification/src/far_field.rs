@@ -187,8 +187,8 @@ mod tests {
         assert!((0.5..1.4).contains(&beside), "{beside}");
     }
 
-    /// A profile through the axis: each side has its own offset, tilt and end of the pile-up, and both tell of
-    /// one noise. Half of the mean square of differences at 0.1 radii, where it is alike over as much, is
+    /// A profile through the axis: each side has its own offset, tilt and end of the pile-up, and both tell
+    /// of one noise. Half of the mean square of differences at 0.1 radii, where it is alike over as much, is
     /// 1 - 1/e; lengths that are nearly an offset, which nothing excludes, do not count in it.
     #[test]
     fn both_sides_of_a_profile_tell_of_one_noise() {

@@ -138,8 +138,8 @@ pub fn infer(
     })
 }
 
-/// Growth of the sum of squares by which measurements that know no first touch or compliance would need one of
-/// them in 1 of 1,000 cases, for each that is sought.
+/// Growth of the sum of squares by which measurements that know no first touch or compliance would need one
+/// of them in 1 of 1,000 cases, for each that is sought.
 const NEEDED_GROWTH: f64 = 10.828;
 
 /// The sum of squares from which it grows to the end of an interval: while first touch and compliance may be

@@ -20,7 +20,7 @@ pub trait ResidualFunction: Sync {
     /// The same near `point` with deviations that change to first order: their slopes are those of the sum of
     /// squares. Without them a search would end where a step by the slopes of [`Self::about`] alone lowers
     /// the sum no more, which is no minimum.
-    fn near(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+    fn first_order(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
         self.about(point)
     }
 }
@@ -98,7 +98,7 @@ pub fn minimise(residuals: &Residuals<'_>, start: &[f64], bounds: &[[f64; 2]]) -
     let mut least = sum_of_squares(here.as_ref());
     let mut damping = 1e-3;
     for _ in 0..MOST_STEPS {
-        let near = residuals.near(&point).and_then(|near| slopes(&*near, &point, bounds));
+        let near = residuals.first_order(&point).and_then(|near| slopes(&*near, &point, bounds));
         let (Some(values), Some(slopes)) = (&here, near) else { break };
         let gradient = slopes.tr_mul(&DVector::from_row_slice(values));
         let normal = slopes.tr_mul(&slopes);
@@ -181,12 +181,12 @@ mod tests {
         );
     }
 
-    /// Readings of x and y, 1 and 2, whose deviation s = 0.5 + 0.5 x grows with x: (1 - x)²/s² + (2 - y)²/s² +
-    /// ln s².
+    /// Readings of x and y, 1 and 2, whose deviation s = 0.5 + 0.5 x grows with x:
+    /// (1 - x)²/s² + (2 - y)²/s² + ln s².
     struct Widening;
 
     impl Widening {
-        fn of(at: &[f64], deviation: f64, growth: f64) -> Option<Vec<f64>> {
+        fn residuals_with(at: &[f64], deviation: f64, growth: f64) -> Option<Vec<f64>> {
             Some(vec![(1.0 - at[0]) / deviation, (2.0 - at[1]) / deviation, growth.sqrt()])
         }
 
@@ -198,15 +198,15 @@ mod tests {
     impl ResidualFunction for Widening {
         fn residuals(&self, at: &[f64]) -> Option<Vec<f64>> {
             let s = Widening::deviation(at);
-            Widening::of(at, s, 2.0 + 2.0 * s.ln())
+            Widening::residuals_with(at, s, 2.0 + 2.0 * s.ln())
         }
 
         fn about(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
             let s = Widening::deviation(point);
-            Some(Box::new(move |at| Widening::of(at, s, 2.0 + 2.0 * s.ln())))
+            Some(Box::new(move |at| Widening::residuals_with(at, s, 2.0 + 2.0 * s.ln())))
         }
 
-        fn near(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+        fn first_order(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
             let s = Widening::deviation(point);
             let still = self.about(point)?;
             let here = still(point)?;

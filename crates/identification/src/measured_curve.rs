@@ -218,8 +218,8 @@ fn thinned(loading: &[[f64; 2]]) -> (Vec<[f64; 2]>, f64) {
     averaged(&logs, KEPT_POINTS[0], |p| p[0].exp() / deepest, f64::exp)
 }
 
-/// Averages of `points` over at most `count` equal parts of `place`, which goes from 0 to 1; and the number of
-/// points in each, as a harmonic mean: the mean variance of the averages goes with its inverse.
+/// Averages of `points` over at most `count` equal parts of `place`, which goes from 0 to 1; and the number
+/// of points in each, as a harmonic mean: the mean variance of the averages goes with its inverse.
 fn averaged(
     points: &[[f64; 2]],
     count: usize,
@@ -324,10 +324,10 @@ mod tests {
         }
     }
 
-    /// Means over parts of the way back lie on it whatever the noise of the forces, first and last ones as
+    /// Means over parts of the unloading lie on it whatever the noise of the forces, first and last ones as
     /// well: 1.5 % on each reading is less than 0.5 % on a mean of nine, and no part is off in one sense.
     #[test]
-    fn noise_of_forces_does_not_shift_the_way_back() {
+    fn noise_of_forces_does_not_shift_the_unloading() {
         let mut seed = 5_u64;
         let mut noise = || {
             let mut uniform = || {
@@ -336,7 +336,7 @@ mod tests {
             };
             0.015 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0)
         };
-        // depth of the way back over that of the turn by the share of the force
+        // depth of the unloading over that of the turn by the share of the force
         let back = |share: f64| 1e-6 * (0.9 + 0.1 * share.powf(2.0 / 3.0));
         let (cases, mut sums) = (100, [0.0; 2]);
         for _ in 0..cases {

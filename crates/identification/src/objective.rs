@@ -142,7 +142,7 @@ impl ResidualFunction for Objective<'_> {
         Some(Box::new(move |at| self.whitened(&factors, at)))
     }
 
-    fn near(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+    fn first_order(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
         let (factors, variances) = (self.factors(point)?, self.variances(point)?);
         let whitened = self.independent(&factors, point)?;
         let each = || self.covariances.iter().zip(&factors);

@@ -139,8 +139,8 @@ impl ResidualFunction for Conditioned<'_> {
         Some(Box::new(move |at| self.with_the_condition(residuals(at)?, at)))
     }
 
-    fn near(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
-        let residuals = self.residuals.near(point)?;
+    fn first_order(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+        let residuals = self.residuals.first_order(point)?;
         Some(Box::new(move |at| self.with_the_condition(residuals(at)?, at)))
     }
 }
