@@ -246,6 +246,15 @@ mod tests {
         (1..=count).map(|i| i as f64 / count as f64).map(|s| [1e-6 * s, 5e-3 * s * s]).collect()
     }
 
+    /// A number of nearly the normal law: the sum of twelve of a fixed generator.
+    fn normal(seed: &mut u64) -> f64 {
+        let mut uniform = || {
+            *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (*seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..12).map(|_| uniform()).sum::<f64>() - 6.0
+    }
+
     #[test]
     fn a_curve_is_thinned_to_points_that_lie_on_it() {
         let mut readings = loaded(3000);
@@ -299,13 +308,7 @@ mod tests {
     #[test]
     fn noisy_forces_on_the_way_up_begin_no_hold() {
         let mut seed = 3_u64;
-        let mut noise = || {
-            let mut uniform = || {
-                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (seed >> 11) as f64 / (1_u64 << 53) as f64
-            };
-            0.007 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0)
-        };
+        let mut noise = || 0.007 * normal(&mut seed);
         for case in 0..50 {
             // equal steps of force
             let shares = (1..=300).map(|i| f64::from(i) / 300.0);
@@ -329,13 +332,7 @@ mod tests {
     #[test]
     fn noise_of_forces_does_not_shift_the_unloading() {
         let mut seed = 5_u64;
-        let mut noise = || {
-            let mut uniform = || {
-                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (seed >> 11) as f64 / (1_u64 << 53) as f64
-            };
-            0.015 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0)
-        };
+        let mut noise = || 0.015 * normal(&mut seed);
         // depth of the unloading over that of the turn by the share of the force
         let back = |share: f64| 1e-6 * (0.9 + 0.1 * share.powf(2.0 / 3.0));
         let (cases, mut sums) = (100, [0.0; 2]);
