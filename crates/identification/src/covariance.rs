@@ -56,8 +56,8 @@ impl Covariance {
         self.sum(deviations).cholesky()
     }
 
-    /// What variances of the model that grow do to first order to `whitened` differences, independent of
-    /// each other by `factor`.
+    /// Changes of `whitened` differences, independent of each other by `factor`, with each variance of the
+    /// model, to first order.
     pub fn growth_by_variances(
         &self,
         factor: &Cholesky<f64, Dyn>,
@@ -118,8 +118,8 @@ impl Experiment {
     pub fn growth(&self, unknowns: &Unknowns, point: &[f64]) -> Option<f64> {
         let covariance = self.covariance(unknowns, point)?;
         let open = covariance.factor(self.model_deviations(unknowns, point)?)?;
-        let told = covariance.factor(self.least_deviations())?;
-        Some(log_determinant(&open) - log_determinant(&told))
+        let least = covariance.factor(self.least_deviations())?;
+        Some(log_determinant(&open) - log_determinant(&least))
     }
 
     /// Mean variance of the differences at `point` by what finite elements expect.

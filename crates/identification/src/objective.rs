@@ -62,8 +62,8 @@ impl<'a> Objective<'a> {
     ) -> Option<Objective<'a>> {
         let covariances = experiments.iter().map(|e| e.covariance(unknowns, point));
         let covariances: Vec<Covariance> = covariances.collect::<Option<_>>()?;
-        let told = experiments.iter().zip(&covariances).map(|(e, c)| c.factor(e.least_deviations()));
-        let least_logarithm = logarithm(&told.collect::<Option<Vec<_>>>()?);
+        let least = experiments.iter().zip(&covariances).map(|(e, c)| c.factor(e.least_deviations()));
+        let least_logarithm = logarithm(&least.collect::<Option<Vec<_>>>()?);
         Some(Objective { experiments, unknowns, covariances, least_logarithm })
     }
 
