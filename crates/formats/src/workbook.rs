@@ -1,5 +1,6 @@
-//! Sheets of Excel workbooks as text: numbers with all their digits, a tab between columns.
+//! Sheets of workbooks of Excel and of LibreOffice as text: numbers with all their digits, a tab between columns.
 
+mod ods;
 mod percent;
 
 use crate::text::TextError;
@@ -11,8 +12,10 @@ use std::sync::{Mutex, PoisonError};
 
 /// Beginning of a compound file, in which an `.xls` lies.
 pub(crate) const COMPOUND: &[u8] = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1";
-/// Beginning of an archive, in which an `.xlsx` lies.
+/// Beginning of an archive, in which an `.xlsx` or an `.ods` lies.
 pub(crate) const ARCHIVE: &[u8] = b"PK\x03\x04";
+/// An archive in memory.
+type Archive<'b> = zip::ZipArchive<Cursor<&'b [u8]>>;
 /// Bytes that a cell takes in memory, with its text.
 const CELL_BYTES: u64 = 128;
 
@@ -50,7 +53,7 @@ struct Sheet {
 /// half of them, the first whose name is not that of something else.
 pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     let sheets =
-        if bytes.starts_with(ARCHIVE) { xlsx(bytes) } else { xls(bytes) }.map_err(TextError::whole)?;
+        if bytes.starts_with(ARCHIVE) { archived(bytes) } else { xls(bytes) }.map_err(TextError::whole)?;
     let most = sheets.iter().map(|sheet| sheet.numbers).max().unwrap_or(0);
     let mut full = sheets.iter().filter(|sheet| most > 0 && 2 * sheet.numbers >= most);
     let is_other = |sheet: &Sheet| {
@@ -59,7 +62,7 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     };
     let first = full.clone().next();
     let sheet = full.find(|sheet| !is_other(sheet)).or(first);
-    let sheet = sheet.ok_or_else(|| TextError::whole("is an Excel workbook without a number"))?;
+    let sheet = sheet.ok_or_else(|| TextError::whole("is a workbook without a number"))?;
     let columns = sheet.rows.values().flat_map(|row| row.keys());
     let width = columns.max().map_or(0, |last| *last as usize + 1);
     // cells that are empty take a tab each
@@ -69,7 +72,7 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
         return Err(TextError::whole(too_many()));
     }
     let others = if sheets.len() > 1 { format!(", one of {}", sheets.len()) } else { String::new() };
-    Ok((sheet.text(), format!("sheet \"{}\"{others} of an Excel workbook as", sheet.name)))
+    Ok((sheet.text(), format!("sheet \"{}\"{others} of a workbook as", sheet.name)))
 }
 
 impl Sheet {
@@ -78,21 +81,27 @@ impl Sheet {
     }
 
     fn put(&mut self, place: (u32, u32), cell: &impl DataType, is_percent: bool) -> Result<(), String> {
-        if place.0 >= MOST_ROWS || place.1 >= MOST_COLUMNS {
-            return Err(refused(&format_args!("a cell in row {} and column {}", place.0, place.1)));
-        }
         let number = cell.get_float().or_else(|| cell.get_int().map(|i| i as f64));
         let date = cell.get_datetime().map(|date| date_of(date.as_f64()));
         let text = match number {
             // a date is no number, and stands as well before the numbers of a row
             _ if date.is_some() => date.unwrap_or_default(),
-            Some(number) if is_percent => format!("{:?}%", 100.0 * number),
+            Some(number) if is_percent => percent_text(number),
             Some(number) => format!("{number:?}"),
             None if cell.is_error() => "#N/A".into(),
-            None => cell.as_string().unwrap_or_default().replace(['\t', '\n', '\r'], " "),
+            None => cell.as_string().unwrap_or_default(),
         };
+        self.set(place, text, number.is_some())
+    }
+
+    /// Gives a cell its text.
+    fn set(&mut self, place: (u32, u32), text: String, has_number: bool) -> Result<(), String> {
+        if place.0 >= MOST_ROWS || place.1 >= MOST_COLUMNS {
+            return Err(refused(&format_args!("a cell in row {} and column {}", place.0, place.1)));
+        }
+        let text = text.replace(['\t', '\n', '\r'], " ");
         if !text.is_empty() {
-            self.numbers += usize::from(number.is_some() || is_number(&text));
+            self.numbers += usize::from(has_number || is_number(&text));
             self.rows.entry(place.0).or_default().insert(place.1, text);
         }
         Ok(())
@@ -158,6 +167,11 @@ fn is_number(cell: &str) -> bool {
     cell.parse::<f64>().is_ok() || cell.contains(',') && cell.replacen(',', ".", 1).parse::<f64>().is_ok()
 }
 
+/// A share as a cell shows it that is set to percent.
+fn percent_text(share: f64) -> String {
+    format!("{:?}%", 100.0 * share)
+}
+
 /// The day so many days after Excel's day 0, as ISO 8601 writes it. By Howard Hinnant's count of days in eras
 /// of 400 years that begin in March.
 fn date_of(days: f64) -> String {
@@ -174,7 +188,7 @@ fn date_of(days: f64) -> String {
 }
 
 fn refused(error: &dyn std::fmt::Display) -> String {
-    format!("is an Excel workbook that cannot be read ({error}): save the sheet as CSV")
+    format!("is a workbook that cannot be read ({error}): save the sheet as CSV")
 }
 
 /// Cells that may be held.
@@ -186,11 +200,16 @@ fn too_many() -> String {
     refused(&"it unpacks to more than the memory that is free")
 }
 
-fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
+/// The sheets of an `.xlsx` or an `.ods`.
+fn archived(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|e| refused(&e))?;
-    if archive.by_name("content.xml").is_ok() {
-        return Err("is a document of LibreOffice or OpenOffice (.ods), which is not read: save the sheet as .xlsx or CSV".into());
+    if archive.index_for_name(ods::CONTENT).is_some() {
+        return ods::sheets(&mut archive);
     }
+    xlsx(bytes, &mut archive)
+}
+
+fn xlsx(bytes: &[u8], archive: &mut Archive<'_>) -> Result<Vec<Sheet>, String> {
     // a bomb is known by unpacking it once, without keeping anything
     let limit = crate::memory::default_limit() / 4;
     let mut unpacked = 0;
@@ -202,7 +221,7 @@ fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
             return Err(too_many());
         }
     }
-    let percent = percent::cells(&mut archive);
+    let percent = percent::cells(archive);
     let mut book = Xlsx::new(Cursor::new(bytes)).map_err(|e| refused(&e))?;
     let mut sheets = Vec::new();
     let mut held = 0;
@@ -378,14 +397,6 @@ mod tests {
         )]))
         .unwrap();
         assert_eq!(text, "\n\nx\t\ta\tb\n\t\t1.0\t2.0\n");
-    }
-
-    #[test]
-    fn a_sheet_of_libreoffice_is_answered_with_a_way_out() {
-        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
-        archive.start_file("content.xml", zip::write::SimpleFileOptions::default()).unwrap();
-        let refused = text(&archive.finish().unwrap().into_inner()).unwrap_err();
-        assert!(refused.message.contains(".ods") && refused.message.contains(".xlsx or CSV"), "{refused}");
     }
 
     #[test]

@@ -163,6 +163,30 @@ fn curves() -> Vec<Dialect> {
             "X-position (um)\t0.0\nk (N/m)\t0.52\nD[Z1] (nm)\t10000\tt[1] (s)\t2\nP[max] (uN)\t8000\nD[max] (nm)\t200\nE[v=0.500] (Pa)\t750\n\nTime (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)\tAuxiliary\n0\t2000\t100\t50\t150\t0.01\n1\t8000\t200\t90\t290\t0.01\n",
         ),
         dialect(
+            "names with a colon and their unit in the words before the table",
+            "loggers and LabVIEW",
+            "curve.txt",
+            "Sample: 7\nDepth: nm\nLoad: mN\nTime: s\n\nTime\tDepth\tLoad\n0\t100\t2\n1\t200\t8\n",
+        ),
+        dialect(
+            "units of all columns in one line before their names",
+            "loggers and LabVIEW",
+            "curve.csv",
+            "Units: s, nm, mN\nTime,Depth,Load\n0,100,2\n1,200,8\n",
+        ),
+        dialect(
+            "several tabs between numbers, one between names",
+            "C programs that line columns up",
+            "curve.txt",
+            "Depth (nm)\tLoad (mN)\tTime (s)\n100\t\t2\t\t0\n200\t\t8\t\t1\n",
+        ),
+        dialect(
+            "bars between columns and at both ends, a line of dashes",
+            "tables of Markdown, Org and PostgreSQL",
+            "curve.md",
+            "| Depth (nm) | Load (mN) |\n|---|---|\n| 100 | 2 |\n| 200 | 8 |\n",
+        ),
+        dialect(
             "tables of approach and drift before that of the test",
             "Hysitron TriboScan .hld, as micromechanics reads it",
             "curve.hld",
@@ -180,6 +204,13 @@ fn curves() -> Vec<Dialect> {
             source: "MTS NanoIndenter XP .xls, written by xlwt 1.3.0",
             name: "curve.xls",
             bytes: include_bytes!("files/xlwt-curve.xls").into(),
+            columns: [None; 2],
+        },
+        Dialect {
+            feature: "a sheet of LibreOffice, units in a row of their own, cells that repeat",
+            source: "LibreOffice, written by odfpy 1.4.1",
+            name: "curve.ods",
+            bytes: include_bytes!("files/odfpy-curve.ods").into(),
             columns: [None; 2],
         },
     ]);
@@ -278,6 +309,18 @@ fn maps() -> Vec<Dialect> {
             "grids of ESRI and of programs",
             "map.asc",
             "ncols 3\nnrows 2\npixel size = 1 um\nz unit = nm\nNODATA_value -9999\n1 2 3\n4 -9999 6\n",
+        ),
+        dialect(
+            "bars between heights",
+            "tables of Markdown and Org",
+            "map.txt",
+            "pixel size = 1 um\nz unit = nm\n| 1 | 2 | 3 |\n| 4 | nan | 6 |\n",
+        ),
+        dialect(
+            "two tabs between heights",
+            "C programs that line columns up",
+            "map.txt",
+            "pixel size = 1 um\nz unit = nm\n1\t\t2\t\t3\n4\t\tnan\t\t6\n",
         ),
         dialect(
             "heights in waves",

@@ -63,8 +63,6 @@ pub(super) fn archive(names: &[String]) -> ReadError {
     let has = |test: &dyn Fn(&str) -> bool| names.iter().any(|name| test(&name.to_ascii_lowercase()));
     let (found, export) = if has(&|n| n.starts_with("word/")) {
         ("a Word document".to_string(), "save the table as plain text")
-    } else if has(&|n| n == "content.xml") {
-        ("an OpenDocument file".into(), "save the sheet as CSV")
     } else if has(&|n| n.ends_with(".npy")) {
         (
             "a NumPy archive of several arrays (.npz)".into(),

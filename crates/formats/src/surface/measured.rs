@@ -13,7 +13,7 @@ pub enum ReadError {
     Io(#[from] std::io::Error),
     /// No reader knows it.
     #[error(
-        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .plu, .plux, .opd, .opdx, .spm, .vk4, .vk6, .zon, .dat, .datx, .gwy, .gsf, .bcr, .bcrf, .nid, .tif or .npy file, a workbook (.xlsx, .xls), or text (.csv, .txt, .xyz)"
+        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .plu, .plux, .opd, .opdx, .spm, .vk4, .vk6, .zon, .dat, .datx, .gwy, .gsf, .bcr, .bcrf, .nid, .tif or .npy file, a workbook (.xlsx, .xls, .ods), or text (.csv, .txt, .xyz)"
     )]
     Unknown {
         /// Its probable kind.

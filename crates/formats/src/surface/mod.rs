@@ -133,7 +133,7 @@ fn read_archive(path: &Path, request: &Request<'_>) -> Result<Measured, ReadErro
     if has(&|name| name == "index.xml") {
         return sensofar::read_plux(path, request);
     }
-    if has(&|name| name.starts_with("xl/")) {
+    if has(&|name| name.starts_with("xl/") || name == "content.xml") {
         return text::read(path, request);
     }
     Err(foreign::archive(&names))

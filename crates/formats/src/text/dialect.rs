@@ -83,7 +83,7 @@ pub(super) fn looks_like_number(word: &str) -> bool {
 /// True of a row of numbers: at least half of its words are numbers, and it begins with one or with a word
 /// that means that there is none. A row of several such words alone is one too: the edge of a masked map.
 pub(super) fn is_row(line: &str) -> bool {
-    let is_blank = |c: char| c == ' ' || c == '\t' || c == ';' || c == ',';
+    let is_blank = |c: char| " \t;,|".contains(c);
     let mut words = line.split(is_blank).map(|word| word.trim_matches('"')).filter(|word| !word.is_empty());
     let first = words.clone().next().unwrap_or("");
     // "Invalid value: -9999" is a remark
@@ -123,7 +123,7 @@ impl Dialect {
         let rows = || lines().filter(|(_, line)| !is_comment(line) && (is_row(line) || is_rest(line)));
         let looked_at: Vec<(usize, &str)> = rows().take(ROWS_LOOKED_AT).collect();
         let separator = match looked_at[..] {
-            [] => ['\t', ';', ',']
+            [] => ['\t', ';', '|', ',']
                 .into_iter()
                 .find(|mark| text.contains(*mark))
                 .map_or(Separator::Blanks, Separator::Mark),
@@ -208,10 +208,14 @@ impl Dialect {
                 Some(names) => fits(',', names) && (all(&is_padded) || all(&is_behind)),
                 None => all(&is_padded),
             };
-            return Separator::Mark(if parts(',') && is_comma { ',' } else { '\t' });
+            return match parts(',') && is_comma {
+                true => Separator::Mark(','),
+                false if are_aligned(names, rows) => Separator::Blanks,
+                false => Separator::Mark('\t'),
+            };
         }
-        if any(&|row| row.contains(';')) {
-            return Separator::Mark(';');
+        if let Some(mark) = [';', '|'].into_iter().find(|mark| any(&|row| row.contains(*mark))) {
+            return Separator::Mark(mark);
         }
         if !any(&|row| row.contains(',')) {
             return Separator::Blanks;
@@ -240,6 +244,7 @@ impl Dialect {
         let rest = match self.separator {
             // a tab at the end is an empty cell
             Separator::Mark('\t') => line.trim_matches([' ', '\r', '\n']),
+            Separator::Mark('|') => framed(line.trim()),
             _ => line.trim(),
         };
         Cells { rest: Some(rest), separator: self.separator }
@@ -309,12 +314,32 @@ impl Dialect {
         let separator = match self.separator {
             Separator::Mark('\t') => "tabs",
             Separator::Mark(';') => "semicolons",
+            Separator::Mark('|') => "bars",
             Separator::Mark(_) => "commas",
             Separator::Blanks => "blanks",
         };
         let decimal = if self.decimal == Decimal::Comma { " and decimal commas" } else { "" };
         format!("{separator} between columns{decimal}")
     }
+}
+
+/// True where several tabs stand between two columns: between all of a table without names, or so that rows
+/// have as many words as their names and other tabs.
+fn are_aligned(names: Option<&str>, rows: &[(usize, &str)]) -> bool {
+    let cells =
+        |line: &str| line.trim().split('\t').map(|cell| !cell.trim().is_empty()).collect::<Vec<bool>>();
+    let words = |cells: &[bool]| cells.iter().filter(|is_word| **is_word).count();
+    let names = names.map(cells);
+    let is_aligned = |row: Vec<bool>| match &names {
+        Some(names) => names.len() != row.len() && words(names) == words(&row),
+        None => row.len() > 2 && row.iter().enumerate().all(|(i, is_word)| *is_word == (i % 2 == 0)),
+    };
+    rows.iter().all(|(_, row)| is_aligned(cells(row)))
+}
+
+/// What stands between the bars at both ends of a line, if it has them.
+fn framed(line: &str) -> &str {
+    line.strip_prefix('|').map_or(line, |inside| inside.strip_suffix('|').unwrap_or(inside))
 }
 
 /// True of a day as ISO 8601 writes it.

@@ -14,7 +14,7 @@ const WINDOWS_1252: [char; 32] = [
 ];
 
 /// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
-/// UTF-8 where it is that, else Windows-1252; of an Excel workbook the sheet with a table. Lines end in `\n`
+/// UTF-8 where it is that, else Windows-1252; of a workbook the sheet with a table. Lines end in `\n`
 /// or `\r\n`.
 ///
 /// # Errors

@@ -84,7 +84,8 @@ pub(crate) fn header_cells(dialect: &Dialect, text: &str, wanted: Option<usize>)
         return dialect.cells(text).map(clean).collect();
     }
     if text.contains('\t') {
-        return text.split('\t').map(clean).collect();
+        // several of them line columns up
+        return text.split('\t').map(clean).filter(|cell| !cell.is_empty()).collect();
     }
     let (mut words, mut groups): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     for word in text.split_whitespace() {
@@ -206,8 +207,7 @@ impl<'t> Header<'t> {
         })
     }
 
-    /// Gives `heads` without a unit the one that was declared for their name; where none is called so, for a
-    /// name of their quantity, or the last words of theirs.
+    /// Gives `heads` without a unit the one that was declared for them.
     ///
     /// # Errors
     /// Heads that have another unit.
@@ -217,17 +217,11 @@ impl<'t> Header<'t> {
         wanted: &[Quantity],
         declared: &[DeclaredUnit],
     ) -> Result<(), TextError> {
-        for DeclaredUnit { line, name, unit } in declared {
-            let is_named = heads.iter().any(|head| head.name == *name);
-            let quantity = wanted.iter().find(|quantity| quantity.called.contains(&name.as_str()));
-            let is_meant = |head: &&mut Heading| match quantity {
-                _ if is_named => head.name == *name,
-                Some(quantity) => head.rank(quantity).is_some(),
-                None => head.name.ends_with(&format!(" {name}")),
-            };
+        for DeclaredUnit { line, column, unit } in declared {
+            let is_meant = column.is_meant_of(heads, wanted);
             let mut others: Vec<String> = Vec::new();
             let mut is_right = false;
-            for head in heads.iter_mut().filter(is_meant) {
+            for (head, _) in heads.iter_mut().zip(is_meant).filter(|(_, is_meant)| *is_meant) {
                 let own = head.unit.get_or_insert_with(|| unit.clone());
                 let scale = |unit: &str| wanted.iter().find_map(|quantity| quantity.dimension.scale(unit));
                 match (scale(own), scale(unit)) {

@@ -1,6 +1,6 @@
 //! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
 
-use super::declared_unit::DeclaredUnit;
+use super::declared_unit::{DeclaredUnit, speaks_of_units};
 use super::dialect::{Dialect, Separator, is_comment, is_row};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit};
@@ -200,7 +200,11 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let is_one = !declared.is_empty();
         self.declared.extend(declared);
         let names = || Header::new(&self.dialect, line, bare, self.wanted, self.named);
-        is_one && (bare.contains([':', '=']) || names().is_none())
+        // a line of names may hold their units as well
+        let is_no_header = || {
+            speaks_of_units(bare) && bare.contains([':', '=']) || self.block.is_some() || names().is_none()
+        };
+        is_one && is_no_header()
     }
 
     /// True of a line below a header that holds units alone: "%;MPa" is no comment.

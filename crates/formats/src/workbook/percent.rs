@@ -1,11 +1,9 @@
 //! Cells that a workbook shows as percent: they hold 0.05 where 5 % is seen.
 
+use super::Archive;
 use roxmltree::Document;
 use std::collections::{HashMap, HashSet};
-use std::io::{Cursor, Read};
-use zip::ZipArchive;
-
-type Archive<'b> = ZipArchive<Cursor<&'b [u8]>>;
+use std::io::Read;
 
 /// Numbers of the formats `0%` and `0.00%` of every workbook.
 const OF_PERCENT: [&str; 2] = ["9", "10"];

@@ -218,6 +218,7 @@ damaged! {
     damaged_tif_is_answered: "tif",
     damaged_xlsx_is_answered: "xlsx",
     damaged_xls_is_answered: "xls",
+    damaged_ods_is_answered: "ods",
 }
 
 /// The beginnings of coverage-guided fuzzing (`verification/measure/fuzz`), to the folder that

@@ -1,5 +1,5 @@
 //! Claims about instruments' files. Those named after a package of Python were written by it (tifffile
-//! 2026.3.3, h5py 3.16.0, openpyxl 3.1.5, xlwt 1.3.0); those named `hand` were laid out by hand, and
+//! 2026.3.3, h5py 3.16.0, openpyxl 3.1.5, odfpy 1.4.1, xlwt 1.3.0); those named `hand` were laid out by hand, and
 //! SurfaceTopography 1.27.1 reads from them the points, sizes, missing points and heights that stand here.
 
 use super::*;
@@ -19,7 +19,7 @@ pub(super) const HEIGHTS: [f64; 12] =
 /// are stored, and the height that stands for the missing point where a format has no mark of one.
 type Known = ((&'static str, &'static [u8]), [f64; 2], f64, f64);
 
-pub(super) const FILES: [Known; 19] = [
+pub(super) const FILES: [Known; 20] = [
     (data!("hand-f32.opd"), [500.0, 250.0], 1e-4, NAN),
     (data!("hand-i16.opd"), [500.0, 250.0], 0.3, NAN),
     (data!("hand.dat"), [500.0, 500.0], 0.01, NAN),
@@ -35,6 +35,7 @@ pub(super) const FILES: [Known; 19] = [
     (data!("h5py.datx"), [500.0, 250.0], 1e-9, NAN),
     (data!("h5py-plain.datx"), [500.0, 250.0], 1e-9, NAN),
     (data!("openpyxl-map.xlsx"), [500.0, 250.0], 1e-9, NAN),
+    (data!("odfpy-map.ods"), [500.0, 250.0], 1e-9, NAN),
     (data!("xlwt-map.xls"), [500.0, 250.0], 1e-9, NAN),
     (data!("tifffile-imagej.tif"), [500.0, 250.0], 1e-4, NAN),
     (data!("tifffile-deflate.tif"), [0.0, 0.0], 1e-9, NAN),

@@ -80,6 +80,10 @@ fn units_in_the_words_before_a_table_are_those_of_its_columns() {
         "Depth unit,nm\nLoad unit,mN\n",
         "Depth unit: nm; Load unit: mN\n",
         "# Depth unit: nm, load unit: mN\n",
+        "Depth: nm\nLoad: mN\n",
+        "Depth = [nm]\nLoad = [mN]\nTime = s\n",
+        "# Depth: nm, Load: mN\n",
+        "Time: s; Depth: nm; Load: mN\n",
     ] {
         for head in ["Depth,Load", "Indentation depth,Normal load", "Time,Depth,Load"] {
             let time = if head.starts_with("Time") { "0," } else { "" };
@@ -88,6 +92,13 @@ fn units_in_the_words_before_a_table_are_those_of_its_columns() {
         is_the_curve(&format!("{words}Depth\tLoad\n100,0\t2,0\n200,0\t8,0\n"), COLUMNS);
         is_the_curve(&format!("Depth Load\n{words}100 2\n200 8\n"), COLUMNS);
     }
+    is_the_curve("Depth: nm\tLoad: mN\n100\t2\n200\t8\n", COLUMNS);
+    // all columns in turn
+    for words in ["Units: s, nm, mN\n", "# units: s nm mN\n", "Einheiten;s;nm;mN\n"] {
+        is_the_curve(&format!("{words}Time,Depth,Load\n0,100,2\n1,200,8\n"), COLUMNS);
+    }
+    let fault = indentation::read("Units: nm, mN\nTime,Depth,Load\n0,100,2\n", COLUMNS, None).unwrap_err();
+    assert!(fault.message.contains("has no unit"), "{fault}");
     // each column its own
     is_the_curve("Piezo unit: um\nDepth unit: nm\nPiezo,Depth,Load (mN)\n9,100,2\n9,200,8\n", COLUMNS);
     is_the_curve(
@@ -103,6 +114,8 @@ fn units_in_the_words_before_a_table_are_those_of_its_columns() {
 fn a_unit_before_a_table_that_contradicts_its_column_is_refused_with_both() {
     for (text, words) in [
         ("Depth unit: um\nDepth (nm),Load (mN)\n100,2\n", "\"Depth (nm)\" is in nm, but line 1 says um"),
+        ("Depth: um\nDepth (nm),Load (mN)\n100,2\n", "\"Depth (nm)\" is in nm, but line 1 says um"),
+        ("Units: um, mN\nDepth (nm),Load (mN)\n100,2\n", "\"Depth (nm)\" is in nm, but line 1 says um"),
         ("Depth unit: um\nDepth,Load\nnm,mN\n100,2\n", "\"Depth\" is in nm, but line 1 says um"),
         ("Displacement unit: mm\nLoad unit: N\nDepth (nm),Load (N)\n100,2\n", "is in nm, but line 1 says mm"),
         ("Depth unit: nm\nDepth unit: um\nDepth,Load (mN)\n100,2\n", "is in nm, but line 2 says um"),
