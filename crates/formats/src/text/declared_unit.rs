@@ -45,8 +45,8 @@ pub(crate) fn speaks_of_units(text: &str) -> bool {
 }
 
 impl DeclaredColumn {
-    /// True for each of `heads` that it is: the one in this place, those of this name; where none is called so,
-    /// those of the quantity that has it, or whose last words it is.
+    /// True for each of `heads` that it is: the one in this place, those of this name; where none is called
+    /// so, those of the quantity that has it, or whose last words it is.
     pub(super) fn is_meant_of(&self, heads: &[Heading], wanted: &[Quantity]) -> Vec<bool> {
         let list = |test: &dyn Fn(&Heading) -> bool| heads.iter().map(test).collect();
         match self {

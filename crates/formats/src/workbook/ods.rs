@@ -1,6 +1,6 @@
 //! Sheets of OpenDocument spreadsheets (ODF 1.3, part 3): cells with the values that they show.
 
-use super::{Archive, Sheet, most_cells, percent_text, refused, too_many};
+use super::sheet::{Archive, Sheet, most_cells, percent_text, refused, too_many};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::io::Read;
 
@@ -127,8 +127,8 @@ fn shown(cell: Node<'_, '_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::text;
     use super::*;
+    use crate::workbook::text;
     use std::io::{Cursor, Write};
 
     /// A file of OpenDocument 1.3 with this body.

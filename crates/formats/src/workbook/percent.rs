@@ -1,6 +1,6 @@
 //! Cells that a workbook shows as percent: they hold 0.05 where 5 % is seen.
 
-use super::Archive;
+use super::sheet::Archive;
 use roxmltree::Document;
 use std::collections::{HashMap, HashSet};
 use std::io::Read;

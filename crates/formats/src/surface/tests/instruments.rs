@@ -1,6 +1,7 @@
 //! Claims about instruments' files. Those named after a package of Python were written by it (tifffile
-//! 2026.3.3, h5py 3.16.0, openpyxl 3.1.5, odfpy 1.4.1, xlwt 1.3.0); those named `hand` were laid out by hand, and
-//! SurfaceTopography 1.27.1 reads from them the points, sizes, missing points and heights that stand here.
+//! 2026.3.3, h5py 3.16.0, openpyxl 3.1.5, odfpy 1.4.1, xlwt 1.3.0); those named `hand` were laid out by
+//! hand, and SurfaceTopography 1.27.1 reads from them the points, sizes, missing points and heights that
+//! stand here.
 
 use super::*;
 
