@@ -15,9 +15,16 @@ use std::path::{Path, PathBuf};
 /// The depth of every imprint, µm.
 const DEPTH: f64 = 2.0;
 /// Slope of the cone of 70.3° half apex angle, degrees.
-const SLOPE_DEG: f64 = 19.7;
+pub const SLOPE_DEG: f64 = 19.7;
 /// Standard deviations: of a force, of a height over the depth; and of offset and tilt over the depth.
-const NOISE: [f64; 3] = [0.01, 0.02, 0.005];
+pub const NOISE: [f64; 3] = [0.01, 0.02, 0.005];
+/// Points of loading, of unloading (with that of the peak) and of the imprint.
+pub const POINTS: [usize; 3] = [200, 100, 150];
+
+/// Place of a height of the imprint, in contact radii: out to three.
+pub fn place(k: usize) -> f64 {
+    3.0 * k as f64 / (POINTS[2] - 1) as f64
+}
 
 /// Contact radii over which heights are alike.
 pub const LENGTHS: [f64; 2] = [0.05, 0.3];
@@ -75,20 +82,19 @@ fn write([e, s, n]: [f64; 3], seed: u64, curve: &Path, imprints: &[PathBuf]) -> 
         k_over_e: found.k_over_e,
         recovery: found.recovery,
     };
-    std::fs::write(curve, computed.curve(e, DEPTH, 200, NOISE[0], &mut noise)).ok()?;
+    std::fs::write(curve, computed.curve(e, DEPTH, POINTS[0], NOISE[0], &mut noise)).ok()?;
     let mut surface = left.points.clone();
     surface.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let far = surface.last()?[1];
     let radius = left.contact_radius;
-    let step = 3.0 / 149.0;
     for (length, imprint) in LENGTHS.iter().zip(imprints) {
         let mut noise = Normal(SplitMix(noise.0.0));
-        let alike = (-step / length).exp();
+        let alike = (-place(1) / length).exp();
         let [offset, tilt] = [NOISE[2] * noise.draw(), NOISE[2] * noise.draw()];
         let mut rough = noise.draw();
         let mut text = "r_um,z_um\n".to_string();
-        for k in 0..150 {
-            let place = step * f64::from(k);
+        for k in 0..POINTS[2] {
+            let place = place(k);
             let height =
                 linear_between(&surface, place * radius) - far + NOISE[1] * rough + offset + tilt * place;
             let _ = writeln!(text, "{:.6},{:.6}", DEPTH * place * radius, DEPTH * height);

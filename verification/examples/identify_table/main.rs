@@ -19,6 +19,7 @@ mod beside;
 mod book;
 mod cases;
 mod imprints;
+mod least_errors;
 mod pair;
 mod properties;
 mod pyramid;
@@ -97,12 +98,13 @@ fn main() {
     let own = book.solve(own);
     noisy_twins(&mut report, &own, count);
     let count: usize = after("--imprints").map_or(100, |n| n.parse().expect("a number"));
-    for (length, bound) in imprints::LENGTHS.into_iter().zip([IMPRINT, COVERS]) {
-        let found = book.solve(imprints(count, length));
+    let of_imprints = imprints::LENGTHS.map(|length| book.solve(imprints(count, length)));
+    for ((length, found), bound) in imprints::LENGTHS.iter().zip(&of_imprints).zip([IMPRINT, COVERS]) {
         let work = format!("one cone and its imprint, roughness alike over {length} contact radii");
-        line(&mut report, &work, "σ_y", &yields(&found), count, &bound);
-        line(&mut report, &work, "n (differences, not shares)", &differences_of_n(&found), count, &COVERS);
+        line(&mut report, &work, "σ_y", &yields(found), count, &bound);
+        line(&mut report, &work, "n (differences, not shares)", &differences_of_n(found), count, &COVERS);
     }
+    least_errors::section(&mut report, &book, &of_imprints);
     let count: usize = after("--properties").map_or(200, |n| n.parse().expect("a number"));
     properties::section(&mut report, &book, count);
     score::times(&mut report, times);
