@@ -4,8 +4,8 @@ use super::experiment::{Data, Experiment};
 use super::imprint;
 use super::interpolation::alike;
 use super::parameters::Unknowns;
+use super::unloading_parabola::UnloadingParabola;
 use crate::measured_curve::Measured;
-use asperity_numerics::least_squares::{Line, powers, solve};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Logarithms of the depth over which the force that a body is expected to need is too large or too small
@@ -18,9 +18,6 @@ const STATED_DEPTH_SHARE: f64 = 0.2;
 /// standard deviation over that of the whole recovery: an unloading is read at few forces, at a few steps.
 const ALIKE_FORCE_SHARE: f64 = 0.25;
 const WAY_SHAPE_SHARE: f64 = 0.5;
-
-/// Points of an unloading up to which a line is drawn through them, not a parabola.
-const ENOUGH_FOR_A_PARABOLA: usize = 5;
 
 /// Effect on the difference at a point of a curve of errors of the expected force and of the unloading
 /// curve.
@@ -190,7 +187,9 @@ impl Experiment {
         });
         let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
         // measured, not expected: deviations that change with the metal would change what fits best
-        let slopes = slopes_of_the_unloading(measured, self.depth);
+        let parabola = UnloadingParabola::new(&measured.unloading, measured.peak[1]);
+        let slopes: Vec<f64> =
+            measured.unloading.iter().map(|p| parabola.growth(p[1]) / self.depth).collect();
         let of_the_unloading = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
             let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
             // near the peak the way is the slope's, at the end the whole
@@ -205,10 +204,10 @@ impl Experiment {
         let by_themselves = !self.noise_given && self.noise_correlation == 0.0;
         let fewer = if by_themselves { of_the_loading / of_the_unloading } else { 1.0 };
         let scatter = fewer.max(1.0).sqrt();
-        let noise = |i: usize| {
-            let of_a_depth = |slope: &f64| (self.noise * scatter * slope.max(0.02)).max(1e-5);
-            i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
-        };
+        let of_the_force = |slope: &f64| (self.noise * scatter * slope.max(0.02)).max(1e-5);
+        let own = self.noise_of_depths(measured, slopes.iter().map(of_the_force));
+        let noise =
+            |i: usize| i.checked_sub(load).map_or(self.noise, |back| of_the_force(&slopes[back]).hypot(own));
         let part = |of_a_pair: &dyn Fn(&ErrorOfAPoint, &ErrorOfAPoint) -> f64| {
             DMatrix::from_fn(count, count, |i, j| of_a_pair(&errors[i], &errors[j]))
         };
@@ -228,24 +227,20 @@ impl Experiment {
         });
         Covariance { noise, model: [force, slope, whole] }
     }
-}
 
-/// Changes of the depth over `depth`, by a relative change of the force at each measured point of the
-/// unloading: by a parabola in F^(2/3), which nearly is a line (Oliver and Pharr, J. Mater. Res. 7 (1992)
-/// 1564); a line where the points are too few for it.
-fn slopes_of_the_unloading(measured: &Measured, depth: f64) -> Vec<f64> {
-    let places: Vec<f64> =
-        measured.unloading.iter().map(|p| (p[1] / measured.peak[1]).powf(2.0 / 3.0)).collect();
-    let points: Vec<[f64; 2]> =
-        places.iter().zip(&measured.unloading).map(|(u, p)| [*u, p[0] / depth]).collect();
-    let rows: Vec<([f64; 3], f64, f64)> = points.iter().map(|[u, h]| (powers(*u), *h, 1.0)).collect();
-    let enough = points.len() > ENOUGH_FOR_A_PARABOLA;
-    let [along, bent] = match solve(&rows).filter(|_| enough) {
-        Some([_, along, bent]) => [along, bent],
-        None => [Line::fit(&points).slope, 0.0],
-    };
-    let slope = |u: &f64| 2.0 / 3.0 * u * (along + 2.0 * bent * u);
-    places.iter().map(slope).map(|slope| if slope.is_finite() { slope.max(0.0) } else { 0.0 }).collect()
+    /// Standard deviation of the depth of a point of the unloading by noise of depths, over the depth of the
+    /// curve: by what its readings scatter more than noise of forces, which is `of_the_forces`, lets them. In
+    /// loading such noise is one of forces, in unloading, which is steep, it is all that counts.
+    fn noise_of_depths(&self, measured: &Measured, of_the_forces: impl ExactSizeIterator<Item = f64>) -> f64 {
+        if self.noise_given || measured.unloading.is_empty() {
+            return 0.0;
+        }
+        let readings = if self.noise_correlation == 0.0 { measured.averaged[1] } else { 1.0 };
+        let count = of_the_forces.len() as f64;
+        let of_the_forces = of_the_forces.map(|deviation| deviation.powi(2)).sum::<f64>() / count;
+        let all = (measured.scatter_of_the_unloading / self.depth).powi(2) / readings;
+        (all - of_the_forces).max(0.0).sqrt()
+    }
 }
 
 #[cfg(test)]
@@ -283,36 +278,5 @@ mod tests {
             let of_the_logarithm = slope(&|v| log_determinant(&factor(v)));
             assert!((logarithms[k] - of_the_logarithm).abs() < 1e-7, "{k}");
         }
-    }
-
-    /// h = 0.9 + 0.1 (F/F₀)^(1/m) grows by 0.1 (F/F₀)^(1/m)/m for each relative change of the force; a
-    /// parabola in F^(2/3) follows exponents of the field within some percent.
-    #[test]
-    fn slopes_follow_the_measured_unloading() {
-        for m in [1.25, 1.5, 1.6] {
-            let point = |share: f64| [1e-6 * (0.9 + 0.1 * share.powf(1.0 / m)), 5e-3 * share];
-            let unloading: Vec<[f64; 2]> = (1..=18).map(|i| point(1.0 - f64::from(i) / 20.0)).collect();
-            let measured = Measured {
-                loading: Vec::new(),
-                unloading,
-                peak: point(1.0),
-                loaded: 1e-6,
-                averaged: [1.0; 2],
-                notes: Vec::new(),
-            };
-            for (p, slope) in measured.unloading.iter().zip(slopes_of_the_unloading(&measured, 1e-6)) {
-                let expected = 0.1 * (p[1] / 5e-3).powf(1.0 / m) / m;
-                assert!((slope / expected - 1.0).abs() < 0.06, "{m} {} {slope} {expected}", p[1]);
-            }
-        }
-        let two = Measured {
-            loading: Vec::new(),
-            unloading: vec![[0.95e-6, 3e-3], [0.93e-6, 1e-3]],
-            peak: [1e-6, 5e-3],
-            loaded: 1e-6,
-            averaged: [1.0; 2],
-            notes: Vec::new(),
-        };
-        assert!(slopes_of_the_unloading(&two, 1e-6).iter().all(|slope| *slope > 0.0 && *slope < 0.1));
     }
 }

@@ -12,6 +12,8 @@ pub mod known_or_unknown;
 
 pub mod fit_file;
 
+mod unloading_parabola;
+
 pub mod measured_curve;
 
 pub mod parameters;

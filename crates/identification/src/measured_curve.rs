@@ -1,6 +1,7 @@
 //! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other
 //! cycles cut.
 
+use super::unloading_parabola::UnloadingParabola;
 use asperity_formats::indentation::Readings;
 use asperity_numerics::least_squares::Line;
 
@@ -17,6 +18,8 @@ pub struct Measured {
     pub loaded: f64,
     /// Readings that a point of the loading and one of the unloading are the mean of.
     pub averaged: [f64; 2],
+    /// Standard deviation of the depth of one reading of the unloading at its force; 0 of too few readings.
+    pub scatter_of_the_unloading: f64,
     /// Remarks.
     pub notes: Vec<String>,
 }
@@ -98,13 +101,16 @@ impl Measured {
             ));
         }
         let loaded = if held { start[0] } else { peak[0] };
-        let (unloading, of_the_unloading) = falling(&readings[last..], peak);
+        let inside = falling(&readings[last..], peak);
+        // of forces that scatter, and of depths that do so themselves
+        let scatter_of_the_unloading = UnloadingParabola::new(&inside, peak[1]).scatter(&inside);
+        let (unloading, of_the_unloading) = averaged_by_depth(&inside, peak);
         if unloading.is_empty() {
             notes.push("there is no unloading: the elastic modulus is hardly seen".into());
         }
         let (loading, of_the_loading) = thinned(&loading);
         let averaged = [of_the_loading, of_the_unloading];
-        Ok(Measured { loading, unloading, peak, loaded, averaged, notes })
+        Ok(Measured { loading, unloading, peak, loaded, averaged, scatter_of_the_unloading, notes })
     }
 
     /// Depth reading at which the tool seems to touch, if its force grows with that `power` of the depth:
@@ -185,20 +191,23 @@ fn envelope(readings: &[[f64; 2]], notes: &mut Vec<String>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// The unloading between the shares of the peak force, averaged over equal parts of its way: a choice by
-/// forces would choose their noise too, and so their mean.
-fn falling(readings: &[[f64; 2]], peak: [f64; 2]) -> (Vec<[f64; 2]>, f64) {
+/// The readings of the unloading between the shares of the peak force.
+fn falling(readings: &[[f64; 2]], peak: [f64; 2]) -> Vec<[f64; 2]> {
     let [low, high] = UNLOADING_FORCE_SHARES.map(|share| share * peak[1]);
     let side = (readings.len() / READINGS_PER_NEIGHBOUR).min(MOST_NEIGHBOURS);
     let mean = |i: usize| mean_force(readings, i, side);
-    let Some(first) = (0..readings.len()).find(|&i| mean(i) <= high) else { return (Vec::new(), 1.0) };
+    let Some(first) = (0..readings.len()).find(|&i| mean(i) <= high) else { return Vec::new() };
     let last = (first..readings.len()).find(|&i| mean(i) < low).unwrap_or(readings.len());
-    let inside: Vec<[f64; 2]> =
-        readings[first..last].iter().copied().filter(|p| p[0] < peak[0] * 1.001 && p[1] > 0.0).collect();
+    readings[first..last].iter().copied().filter(|p| p[0] < peak[0] * 1.001 && p[1] > 0.0).collect()
+}
+
+/// Averages of an unloading over equal parts of its way, and how many readings each is the mean of: a choice
+/// by forces would choose their noise too, and so their mean.
+fn averaged_by_depth(inside: &[[f64; 2]], peak: [f64; 2]) -> (Vec<[f64; 2]>, f64) {
     let depths = || inside.iter().map(|p| p[0]);
     let (top, bottom) = (depths().fold(f64::NEG_INFINITY, f64::max), depths().fold(f64::INFINITY, f64::min));
     let way = (top - bottom).max(f64::MIN_POSITIVE);
-    let (mut points, of_a_point) = averaged(&inside, KEPT_POINTS[1], |p| (top - p[0]) / way, |x| x);
+    let (mut points, of_a_point) = averaged(inside, KEPT_POINTS[1], |p| (top - p[0]) / way, |x| x);
     points.retain(|p| p[1] < peak[1]);
     (points, of_a_point)
 }
