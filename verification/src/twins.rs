@@ -42,6 +42,16 @@ pub fn indenter(slope_deg: f64, e_over_sy: f64, exponent: f64) -> Indenter {
     Indenter { slope_deg, indents: true, metal, friction: None }
 }
 
+/// Recovery over the depth at a share of the peak force, between those at [`FORCES`]: nearly straight in
+/// F^(2/3), and without a kink.
+pub fn recovery_between(recovery: &[f64; FORCES.len()], share: f64) -> f64 {
+    let bent = |share: f64| -share.powf(2.0 / 3.0);
+    let points: Vec<[f64; 2]> = std::iter::once([bent(1.0), 0.0])
+        .chain(FORCES.iter().zip(recovery).map(|(share, way)| [bent(*share), *way]))
+        .collect();
+    smooth(&points, bent(share))
+}
+
 /// A computed cone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cone {
@@ -116,15 +126,10 @@ impl Cone {
             let at = depth * k as f64 / points as f64;
             row(at, force(at));
         }
-        // nearly straight in F^(2/3), and without a kink
-        let bent = |share: f64| -share.powf(2.0 / 3.0);
-        let back: Vec<[f64; 2]> = std::iter::once([bent(1.0), 0.0])
-            .chain(FORCES.iter().zip(self.recovery).map(|(share, way)| [bent(*share), way]))
-            .collect();
         let count = (points / 2).max(10);
         for k in 1..count {
             let share = 1.0 - k as f64 / count as f64;
-            row(depth * (1.0 - smooth(&back, bent(share))), share * force(depth));
+            row(depth * (1.0 - recovery_between(&self.recovery, share)), share * force(depth));
         }
         text
     }

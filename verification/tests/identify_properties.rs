@@ -28,6 +28,15 @@ fn properties_of(twins: &[Twin]) -> Vec<Properties> {
     twins.par_iter().enumerate().with_max_len(1).map(one).collect()
 }
 
+/// The metal of `twin` fits, and the intervals of what was `found` hold it.
+fn fits_and_covers(found: &Value, twin: &Twin) {
+    assert_eq!(found["residual"]["fits"], true, "{twin:?}: {}", found["residual"]);
+    for (name, truth) in twin.truth() {
+        let end = |key: &str| found["parameters"][name][key].as_f64().unwrap();
+        assert!(end("low") <= truth && truth <= end("high"), "{twin:?}: {}", found["parameters"]);
+    }
+}
+
 /// First touch and compliance of the machine are 0 and not known to be. Two percent of a width is what the
 /// steps of a profile leave of its end; 0.1 of a sum of squares is a thirtieth of what ends an interval.
 #[test]
@@ -49,20 +58,16 @@ fn a_better_curve_does_not_reject_its_metal() {
     let place = tempfile::tempdir().unwrap();
     let ladder = [(20, 0.02), (200, 5e-3), (2000, 1e-3), (20_000, 2e-4)];
     let twin = Twin::new(&cones, 0).unwrap();
-    let cases: Vec<(Twin, bool)> = ladder
+    let twins: Vec<Twin> = ladder
         .iter()
-        .map(|(points, noise)| Twin { points: *points, noise: *noise, ..twin.clone() })
-        .flat_map(|twin| [true, false].map(|stated| (twin.clone(), stated)))
+        .flat_map(|of| [true, false].map(|stated| (of, stated)))
+        .map(|((points, noise), stated)| Twin { points: *points, noise: *noise, stated, ..twin.clone() })
         .collect();
-    cases.par_iter().enumerate().with_max_len(1).for_each(|(k, (twin, stated))| {
+    twins.par_iter().enumerate().with_max_len(1).for_each(|(k, twin)| {
         let file = format!("curve-{k}.csv");
         std::fs::write(place.path().join(&file), twin.curve()).unwrap();
-        let found = answer(place.path(), &twin.fit(&file, 0, stated.then_some(twin.noise))).unwrap();
-        assert_eq!(found["residual"]["fits"], true, "{twin:?} {stated}: {}", found["residual"]);
-        for (name, truth) in twin.truth() {
-            let end = |key: &str| found["parameters"][name][key].as_f64().unwrap();
-            assert!(end("low") <= truth && truth <= end("high"), "{twin:?}: {}", found["parameters"]);
-        }
+        let found = answer(place.path(), &twin.fit(&file, 0, twin.stated.then_some(twin.noise))).unwrap();
+        fits_and_covers(&found, twin);
     });
 }
 
@@ -84,10 +89,6 @@ fn noise_of_depths_does_not_reject_a_metal() {
         let file = format!("curve-{points}.csv");
         std::fs::write(place.path().join(&file), curve).unwrap();
         let found = answer(place.path(), &twin.fit(&file, 0, None)).unwrap();
-        assert_eq!(found["residual"]["fits"], true, "{points}: {}", found["residual"]);
-        for (name, truth) in twin.truth() {
-            let end = |key: &str| found["parameters"][name][key].as_f64().unwrap();
-            assert!(end("low") <= truth && truth <= end("high"), "{points}: {}", found["parameters"]);
-        }
+        fits_and_covers(&found, &twin);
     });
 }

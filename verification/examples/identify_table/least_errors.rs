@@ -5,10 +5,10 @@ use crate::book::{Book, Solved};
 use crate::imprints::{LENGTHS, NOISE, POINTS, SLOPE_DEG, place};
 use asperity::tables::Accuracy;
 use asperity_calibration::indentation::{FORCES, residual_surface, solve};
-use asperity_identification::interpolation::{linear_between, smooth};
+use asperity_identification::interpolation::linear_between;
 use asperity_solver::body::analysis::Analyses;
 use asperity_verification::report::Report;
-use asperity_verification::twins::indenter;
+use asperity_verification::twins::{indenter, recovery_between};
 use nalgebra::{DMatrix, Matrix3};
 use rayon::prelude::*;
 use serde_json::json;
@@ -45,15 +45,6 @@ fn measured(e_over_sy: f64, exponent: f64) -> Option<Measured> {
     })
 }
 
-/// Recovery at a share of the peak force, as the twins interpolate it.
-fn recovery(of: &[f64; FORCES.len()], share: f64) -> f64 {
-    let bent = |share: f64| -share.powf(2.0 / 3.0);
-    let points: Vec<[f64; 2]> = std::iter::once([bent(1.0), 0.0])
-        .chain(FORCES.iter().zip(of).map(|(share, way)| [bent(*share), *way]))
-        .collect();
-    smooth(&points, bent(share))
-}
-
 /// Slopes of all that is measured, forces first, by two metals that differ by `change`; `middle` tells the
 /// unloading between them, and places are shares of the contact radius `radius`.
 fn slopes([low, high]: [&Measured; 2], middle: &[f64; FORCES.len()], radius: f64, change: f64) -> Vec<f64> {
@@ -61,9 +52,12 @@ fn slopes([low, high]: [&Measured; 2], middle: &[f64; FORCES.len()], radius: f64
     let loading = (high.loading - low.loading) / change;
     let unloading = (1..unloaded).map(|k| {
         let share = 1.0 - k as f64 / unloaded as f64;
-        let falls = (recovery(middle, share * 1.01) - recovery(middle, share * 0.99)) / 0.02;
+        let falls = (recovery_between(middle, share * 1.01) - recovery_between(middle, share * 0.99)) / 0.02;
         // at a depth that stays, more recovery is less force
-        loading - (recovery(&high.recovery, share) - recovery(&low.recovery, share)) / change / falls
+        loading
+            - (recovery_between(&high.recovery, share) - recovery_between(&low.recovery, share))
+                / change
+                / falls
     });
     let at = |of: &Measured, r: f64| linear_between(&of.surface, r);
     let imprint = (0..heights).map(|k| (at(high, radius * place(k)) - at(low, radius * place(k))) / change);
