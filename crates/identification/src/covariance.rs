@@ -150,21 +150,18 @@ impl Experiment {
             Data::Curve(measured) => self.covariance_of_a_curve(measured),
             Data::Imprint(imprint) => {
                 let radius = imprint::radius_over_depth(&expected.logarithms) * self.true_depth(&expected);
-                let [mut noise, model] = imprint.covariances(radius, self.depth);
-                let local = imprint::local_variance(self.told_deviations()[0]);
-                for i in 0..noise.nrows() {
-                    noise[(i, i)] += local * model[(i, i)];
-                }
+                let [noise, model] = imprint.covariances(radius, self.depth);
                 Covariance::of_the_first(noise, model)
             }
             Data::ImprintNumbers(numbers) => {
                 let given = [numbers.pile_up_height, numbers.residual_depth, numbers.rim_radius];
                 let scales = [0, 1, 2].map(|k| given[k].map(|d| if k < 2 { d / self.depth } else { 1.0 }));
-                let sizes: Vec<f64> = scales.into_iter().flatten().collect();
-                let noise = DMatrix::from_diagonal(
-                    &sizes.iter().map(|s| (self.noise * s).powi(2)).collect::<Vec<_>>().into(),
-                );
-                Covariance::of_the_first(noise, DMatrix::identity(sizes.len(), sizes.len()))
+                let diagonal = |of: &dyn Fn(usize, f64) -> f64| {
+                    let sizes = scales.iter().enumerate().filter_map(|(k, s)| Some(of(k, (*s)?).powi(2)));
+                    DMatrix::from_diagonal(&sizes.collect::<Vec<_>>().into())
+                };
+                let noise = diagonal(&|_, scale| self.noise * scale);
+                Covariance::of_the_first(noise, diagonal(&|k, _| imprint::ERRORS_OF_NUMBERS[k]))
             }
         };
         let Some(pyramid) = self.pyramid else { return Some(covariance) };

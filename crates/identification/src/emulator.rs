@@ -6,6 +6,7 @@
 //! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
 //! run a level).
 
+use super::imprint::error_sizes;
 use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
 use asperity_material::{Elastic, HardeningCurve};
@@ -36,6 +37,8 @@ pub struct Emulator {
     lengths: Vec<f64>,
     /// The scatter that is left of the trend, one for each logarithm.
     amplitudes: Vec<f64>,
+    /// That over which the error of an answer counts: of the loading, or of heights far from a rim.
+    scatter: f64,
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
     weights: DMatrix<f64>,
@@ -108,7 +111,8 @@ fn share_of_an_error(error: f64, amplitude: f64) -> f64 {
     (0.5 * error / amplitude).powi(2).max(1e-6)
 }
 
-/// Least scatter about a polynomial: what the mesh, which differs from metal to metal, leaves.
+/// Least scatter of a curve about a polynomial: what the mesh, which differs from metal to metal, leaves. That of
+/// heights is their error.
 const MIN_AMPLITUDE: f64 = 0.003;
 
 impl Emulator {
@@ -120,14 +124,20 @@ impl Emulator {
         Emulator::new(Trend::Atlas, lengths, amplitudes)
     }
 
-    /// A polynomial through `runs`.
-    pub fn fit(runs: &[(Vec<f64>, Response)]) -> Option<Emulator> {
+    /// A polynomial through `runs`, which are of an `imprint` or of a curve.
+    pub fn fit(runs: &[(Vec<f64>, Response)], imprint: bool) -> Option<Emulator> {
         let places: Vec<&[f64]> = runs.iter().map(|(place, _)| place.as_slice()).collect();
         let values: Vec<&[f64]> = runs.iter().map(|(_, r)| r.logarithms.as_slice()).collect();
         let (polynomial, left) = Polynomial::fit(&places, &values)?;
         let lengths = polynomial.widths.iter().map(|w| if *w > 0.0 { 0.8 * w } else { 1.0 }).collect();
-        let amplitudes = left.iter().map(|l| l.max(MIN_AMPLITUDE)).collect();
-        let mut emulator = Emulator::new(Trend::Polynomial(polynomial), lengths, amplitudes);
+        let trend = Trend::Polynomial(polynomial);
+        let mut emulator = if imprint {
+            let least = runs.iter().map(|(_, r)| 0.5 * r.errors[0]).fold(0.0, f64::max);
+            Emulator::of_an_imprint(trend, lengths, left, least)
+        } else {
+            let amplitudes = left.into_iter().map(|l| l.max(MIN_AMPLITUDE)).collect();
+            Emulator::new(trend, lengths, amplitudes)
+        };
         for (place, response) in runs {
             emulator.push(place.clone(), response);
         }
@@ -137,7 +147,19 @@ impl Emulator {
 
     fn new(trend: Trend, lengths: Vec<f64>, amplitudes: Vec<f64>) -> Emulator {
         let (weights, lift) = (DMatrix::zeros(0, amplitudes.len()), vec![0.0; amplitudes.len()]);
-        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, weights, lift }
+        let scatter = amplitudes.first().copied().unwrap_or(0.01);
+        Emulator { trend, lengths, amplitudes, scatter, nodes: Vec::new(), factor: None, weights, lift }
+    }
+
+    /// That of heights of which `left` is left of the trend, and whose standard deviation by the finite
+    /// elements is `least` far from the rim.
+    fn of_an_imprint(trend: Trend, lengths: Vec<f64>, left: Vec<f64>, least: f64) -> Emulator {
+        let sizes = error_sizes();
+        let amplitudes: Vec<f64> = left.iter().zip(sizes).map(|(l, size)| l.max(least * size)).collect();
+        // of the heights, which stand behind the radius
+        let each = amplitudes.iter().zip(sizes).skip(1).map(|(a, size)| (a / size).powi(2));
+        let scatter = (each.sum::<f64>() / (amplitudes.len() - 1).max(1) as f64).sqrt();
+        Emulator { scatter, ..Emulator::new(trend, lengths, amplitudes) }
     }
 
     /// Adds the answer to a question.
@@ -183,12 +205,11 @@ impl Emulator {
 
     fn renew(&mut self) {
         let count = self.nodes.len();
-        let first = self.first_amplitude();
         let mut matrix = DMatrix::from_fn(count, count, |i, j| {
             self.correlation(&self.nodes[i].place, &self.nodes[j].place)
         });
         for i in 0..count {
-            matrix[(i, i)] += share_of_an_error(self.nodes[i].error, first);
+            matrix[(i, i)] += share_of_an_error(self.nodes[i].error, self.scatter);
         }
         let rest = DMatrix::from_fn(count, self.amplitudes.len(), |i, j| self.nodes[i].logarithms[j]);
         self.factor = matrix.cholesky();
@@ -232,7 +253,7 @@ impl Emulator {
     /// which tell of each other, nothing.
     pub fn least_left(&self, error: f64, imprint: bool, loading: usize) -> [f64; 3] {
         let share = match self.trend {
-            Trend::Atlas => share_of_an_error(error, self.first_amplitude()),
+            Trend::Atlas => share_of_an_error(error, self.scatter),
             Trend::Polynomial(_) => 0.0,
         };
         self.left_of_the_trend(share / (1.0 + share), imprint, loading)
@@ -243,16 +264,9 @@ impl Emulator {
         let share = share.clamp(0.0, 1.0).sqrt();
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
         if imprint {
-            // of its heights, which stand behind the radius
-            let heights = self.amplitudes.iter().skip(1);
-            let mean = (heights.clone().map(|a| a * a).sum::<f64>() / heights.len().max(1) as f64).sqrt();
-            return [share * mean, 0.0, 0.0];
+            return [share * self.scatter, 0.0, 0.0];
         }
         [of(loading - 1), of(loading), of(loading + 1)]
-    }
-
-    fn first_amplitude(&self) -> f64 {
-        self.amplitudes.first().copied().unwrap_or(0.01)
     }
 }
 

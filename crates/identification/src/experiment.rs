@@ -211,8 +211,9 @@ impl Experiment {
             }
             Data::Imprint(imprint) => {
                 let depth = self.true_depth(&expected);
-                let model = |r: f64| depth * imprint::height(&expected.logarithms, r / depth);
-                imprint.points.iter().map(|[r, z]| (z - model(*r)) / self.depth).collect()
+                let surface = imprint::surface(&expected.logarithms);
+                let model = imprint.read(|r| depth * surface(r / depth));
+                imprint.points.iter().zip(model).map(|(p, model)| (p[1] - model) / self.depth).collect()
             }
             Data::ImprintNumbers(numbers) => {
                 let depth = self.true_depth(&expected);

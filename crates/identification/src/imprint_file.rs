@@ -65,8 +65,8 @@ const HOLE_SHARE: f64 = 0.4;
 const LEVEL_RADII: f64 = 2.0;
 /// Contact radii to which ring means have to reach, that their end tells the height of the ground.
 const GROUND_RADII: f64 = 3.0;
-/// Rings of a radial mean over one contact radius.
-const RINGS: f64 = 40.0;
+/// Rings of a radial mean over one contact radius: a wide one would blunt the rim.
+const RINGS: f64 = 160.0;
 /// Contact radii to which a line reaches on both sides of an imprint that it crosses, and from which its
 /// middle is not the 0 of its places: half of an imprint, weighted by its depth, has its middle within.
 const LINE_RADII: f64 = 1.2;

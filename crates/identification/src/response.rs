@@ -245,9 +245,14 @@ fn run(
 }
 
 /// The answer of the numbers of an imprint.
-fn of_an_imprint(numbers: Option<Vec<f64>>, accuracy: Accuracy) -> Result<Response, String> {
+fn of_an_imprint(
+    question: &DesignPoint,
+    numbers: Option<Vec<f64>>,
+    accuracy: Accuracy,
+) -> Result<Response, String> {
+    let similar = matches!(question.geometry, Geometry::Sharp { .. });
     let logarithms = numbers.ok_or("left no imprint")?;
-    Ok(Response { logarithms, errors: imprint::errors(accuracy), reached: 1.0 })
+    Ok(Response { logarithms, errors: imprint::errors(accuracy, similar), reached: 1.0 })
 }
 
 fn imprint_of_a_cone(
@@ -258,7 +263,7 @@ fn imprint_of_a_cone(
 ) -> Result<Response, String> {
     let cone = indenting(question, slope_deg);
     let left = residual_surface(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
-    of_an_imprint(imprint::numbers(left.points, left.contact_radius), accuracy)
+    of_an_imprint(question, imprint::numbers(left.points, left.contact_radius), accuracy)
 }
 
 fn imprint_of_a_body(
@@ -269,7 +274,7 @@ fn imprint_of_a_body(
 ) -> Result<Response, String> {
     let radius = outcome.rows.iter().rfind(|r| r.phase == Phase::Load).map_or(0.0, |r| r.contact_radius);
     let points = surface.iter().map(|p| [p.r / question.depth, p.z / question.depth]).collect();
-    of_an_imprint(imprint::numbers(points, radius / question.depth), accuracy)
+    of_an_imprint(question, imprint::numbers(points, radius / question.depth), accuracy)
 }
 
 fn body(question: &DesignPoint, outcome: &Outcome) -> Result<Response, String> {

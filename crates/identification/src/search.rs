@@ -430,7 +430,7 @@ fn design(
             let own = questions.iter().zip(&answers).filter(|((of, _), _)| *of == i);
             let runs: Vec<(Vec<f64>, Response)> =
                 own.filter_map(|((_, q), a)| Some((features(q), a.as_ref().ok()?.clone()))).collect();
-            experiments[i].emulator = Emulator::fit(&runs).ok_or_else(|| {
+            experiments[i].emulator = Emulator::fit(&runs, experiments[i].is_imprint()).ok_or_else(|| {
                 SearchError::NoAnswer(format!(
                     "{}: too few runs of finite elements came to an end: {reason}",
                     experiments[i].name

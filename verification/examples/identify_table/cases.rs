@@ -1,8 +1,10 @@
 //! The cases: metals that are known, and the fits that are to find them.
 
-use asperity::tables::{Accuracy, HardeningChoice, Loading, Material, Scene as Tables, Symmetry, Tool};
+use asperity::tables::{
+    Accuracy, HardeningChoice, Loading, Material, Output, Scene as Tables, Symmetry, Tool,
+};
 use asperity::units::MICROMETRE;
-use asperity::{Length, Scene, Stress, crush};
+use asperity::{Crush, Length, Scene, Stress, crush};
 use asperity_calibration::fit::SplitMix;
 use asperity_verification::twins::Normal;
 use rayon::prelude::*;
@@ -207,16 +209,25 @@ pub fn twins(count: usize) -> Vec<Case> {
     metals.into_par_iter().enumerate().with_max_len(1).filter_map(one).collect()
 }
 
-/// A curve with noise on its forces, as a table.
-fn curve([e, s, n]: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
+/// The crush of a metal (GPa, MPa, n) by `tool` to `depth` and back; none where it stops.
+pub fn indented([e, s, n]: [f64; 3], tool: Tool, depth: Length, level: Accuracy) -> Option<Crush> {
     let mut metal = Material::elastic_body(Stress(1e9 * e), 0.3).yielding(Stress(1e6 * s), n);
     metal.hardening_law = HardeningChoice::Swift;
-    let loading = Loading::to_depth(Length(1e-6)).unloaded();
-    let tables = Tables::new(Symmetry::Axisymmetric, metal, tool, loading).with_accuracy(Accuracy::Standard);
+    let loading = Loading::to_depth(depth).unloaded();
+    // the fields of the last increment alone
+    let output = Output { every: Some(usize::MAX), fields: None };
+    let tables = Tables::new(Symmetry::Axisymmetric, metal, tool, loading).with_accuracy(level);
+    let tables = Tables { output, ..tables };
     let done = crush(&Scene::new(&tables).ok()?, &mut |_| true).ok()?;
+    done.summary.stopped.is_none().then_some(done)
+}
+
+/// A curve with noise on its forces, as a table.
+fn curve(metal: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
+    let done = indented(metal, tool, Length(1e-6), Accuracy::Standard)?;
     let mut noise = Normal(SplitMix(seed));
     let mut text = "depth_um,force_mN\n".to_string();
-    for row in done.curve.iter().filter(|_| done.summary.stopped.is_none()) {
+    for row in &done.curve {
         let normal = noise.draw();
         let _ =
             writeln!(text, "{:.6},{:.8}", row.depth / MICROMETRE, 1e3 * row.force * (1.0 + 0.005 * normal));

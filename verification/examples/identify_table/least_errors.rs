@@ -2,7 +2,7 @@
 //! metal, by slopes of finite elements.
 
 use crate::book::{Book, Solved};
-use crate::imprints::{LENGTHS, NOISE, POINTS, SLOPE_DEG, place};
+use crate::imprints::{LENGTHS, Left, NOISE, POINTS, SLOPE_DEG, place};
 use asperity::tables::Accuracy;
 use asperity_calibration::indentation::{FORCES, residual_surface, solve};
 use asperity_identification::interpolation::linear_between;
@@ -25,24 +25,15 @@ const METALS: usize = 8;
 struct Measured {
     loading: f64,
     recovery: [f64; FORCES.len()],
-    surface: Vec<[f64; 2]>,
-    contact_radius: f64,
+    left: Left,
 }
 
 fn measured(e_over_sy: f64, exponent: f64) -> Option<Measured> {
     let (cone, analyses) = (indenter(SLOPE_DEG, e_over_sy, exponent), Analyses::default());
     let (found, _) = solve(&cone, Accuracy::Standard, &analyses).ok()?;
     let left = residual_surface(&cone, Accuracy::Standard, &analyses).ok()?;
-    let mut surface = left.points;
-    surface.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let far = surface.last()?[1];
-    surface.iter_mut().for_each(|point| point[1] -= far);
-    Some(Measured {
-        loading: found.k_over_e.ln(),
-        recovery: found.recovery,
-        surface,
-        contact_radius: left.contact_radius,
-    })
+    let left = Left::new(left.points, left.contact_radius)?;
+    Some(Measured { loading: found.k_over_e.ln(), recovery: found.recovery, left })
 }
 
 /// Slopes of all that is measured, forces first, by two metals that differ by `change`; `middle` tells the
@@ -59,7 +50,7 @@ fn slopes([low, high]: [&Measured; 2], middle: &[f64; FORCES.len()], radius: f64
                 / change
                 / falls
     });
-    let at = |of: &Measured, r: f64| linear_between(&of.surface, r);
+    let at = |of: &Measured, r: f64| linear_between(&of.left.surface, r);
     let imprint = (0..heights).map(|k| (at(high, radius * place(k)) - at(low, radius * place(k))) / change);
     std::iter::repeat_n(loading, loaded).chain(unloading).chain(imprint).collect()
 }
@@ -76,7 +67,7 @@ fn least_deviations(e_over_sy: f64, exponent: f64) -> Option<Vec<f64>> {
     let found: Option<Vec<Measured>> = metals.into_iter().map(|[ratio, n]| measured(ratio, n)).collect();
     let found = found?;
     let middle = std::array::from_fn(|k| 0.5 * (found[0].recovery[k] + found[1].recovery[k]));
-    let radius = 0.5 * (found[0].contact_radius + found[1].contact_radius);
+    let radius = 0.5 * (found[0].left.contact_radius + found[1].left.contact_radius);
     let of_the_ratio = slopes([&found[0], &found[1]], &middle, radius, 2.0 * FACTOR.ln());
     let of_n = slopes([&found[2], &found[3]], &middle, radius, CHANGE);
     let forces = POINTS[0] + POINTS[1] - 1;

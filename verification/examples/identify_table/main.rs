@@ -29,7 +29,7 @@ use asperity_verification::report::Report;
 use beside::Ratios;
 use book::{Book, Solved};
 use cases::{Asked, Case, aluminium, published, series, twins};
-use imprints::imprints;
+use imprints::{Indenter, imprints};
 use score::{ANY, Bound, HEAD, Row, line};
 use std::path::Path;
 
@@ -85,7 +85,13 @@ fn main() {
 
     let indents = aluminium(folder);
     let own = if left_out("twins") { Vec::new() } else { twins(count) };
-    let times = [book.time(&indents[0]), own.first().and_then(|twin| book.time(twin))];
+    let imprint = |tool| imprints(tool, 1, imprints::LENGTHS[0]).first().and_then(|case| book.time(case));
+    let times = [
+        book.time(&indents[0]),
+        own.first().and_then(|twin| book.time(twin)),
+        imprint(Indenter::Cone),
+        imprint(Indenter::Ball),
+    ];
 
     report.table(HEAD);
     let both = book.solve(published(&metals, Asked::TwoCones));
@@ -98,12 +104,15 @@ fn main() {
     let own = book.solve(own);
     noisy_twins(&mut report, &own, count);
     let count: usize = after("--imprints").map_or(100, |n| n.parse().expect("a number"));
-    let of_imprints = imprints::LENGTHS.map(|length| book.solve(imprints(count, length)));
+    let of_imprints = imprints::LENGTHS.map(|length| book.solve(imprints(Indenter::Cone, count, length)));
     for ((length, found), bound) in imprints::LENGTHS.iter().zip(&of_imprints).zip([IMPRINT, COVERS]) {
         let work = format!("one cone and its imprint, roughness alike over {length} contact radii");
         line(&mut report, &work, "σ_y", &yields(found), count, &bound);
         line(&mut report, &work, "n (differences, not shares)", &differences_of_n(found), count, &COVERS);
     }
+    let count = count.min(BALLS);
+    let of_balls = book.solve(imprints(Indenter::Ball, count, imprints::LENGTHS[0]));
+    imprints_of_balls(&mut report, &of_balls, count);
     least_errors::section(&mut report, &book, &of_imprints);
     let count: usize = after("--properties").map_or(200, |n| n.parse().expect("a number"));
     properties::section(&mut report, &book, count);
@@ -124,6 +133,22 @@ const COVERS: Bound = Bound { covers: [90.0, 100.0], asked: "covers 90", ..ANY }
 /// Bound on the yield stress from one cone and its imprint.
 const IMPRINT: Bound =
     Bound { mean: 5.0, worst: 12.0, covers: [90.0, 100.0], asked: "5 mean, 12 worst, covers 90" };
+
+/// Bound on a stress within what a ball of 0.4 contact radii reaches.
+const STRESS: Bound = Bound { mean: 2.0, covers: [90.0, 100.0], asked: "2 mean, covers 90", ..ANY };
+
+/// Twins of a ball with its imprint: each costs a run at `reference` and one more fit.
+const BALLS: usize = 50;
+
+/// Balls with their imprints.
+fn imprints_of_balls(report: &mut Report, found: &[Solved], count: usize) {
+    let work = "one ball to a contact of 0.4 radii and its imprint";
+    for (strain, bound) in [(0.02, &STRESS), (0.05, &STRESS), (0.1, &COVERS)] {
+        line(report, work, &format!("stress at ε_p {strain}"), &stresses(found, strain), count, bound);
+    }
+    line(report, work, "σ_y", &yields(found), count, &COVERS);
+    line(report, work, "n (differences, not shares)", &differences_of_n(found), count, &COVERS);
+}
 
 /// Two cones under each published metal.
 fn two_cones(report: &mut Report, both: &[Solved], ratios: &[Ratios]) {

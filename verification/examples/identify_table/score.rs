@@ -53,12 +53,17 @@ pub fn line(report: &mut Report, work: &str, what: &str, rows: &[Row], of: usize
     ));
 }
 
-/// Writes what fits cost on one thread: three features of a sharp cone, and a curve of a cone with one of a
-/// ball.
-pub fn times(report: &mut Report, times: [Option<[f64; 2]>; 2]) {
+/// Writes what fits cost on one thread: three features of a sharp cone, a curve of a cone with one of a ball,
+/// a cone and a ball each with its imprint.
+pub fn times(report: &mut Report, times: [Option<[f64; 2]>; 4]) {
     report.section("What a fit costs");
     report.table("| fit | core seconds | runs of finite elements | asked, s | reached |");
-    let fits = [("one sharp cone, three features", 2.0), ("curves of a sharp cone and of a ball", 60.0)];
+    let fits = [
+        ("one sharp cone, three features", 2.0),
+        ("curves of a sharp cone and of a ball", 60.0),
+        ("a sharp cone and its imprint", 10.0),
+        ("a ball and its imprint", 15.0),
+    ];
     for ((name, most), time) in fits.into_iter().zip(times) {
         match time {
             Some([seconds, runs]) => {
