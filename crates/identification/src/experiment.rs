@@ -316,15 +316,23 @@ impl Experiment {
     pub fn doubt(&self, first_touch_sought: bool) -> Option<String> {
         let Data::Curve(measured) = &self.data else { return None };
         let touches = measured.touches(2.0);
-        let elsewhere =
-            self.is_similar() && !first_touch_sought && touches.abs() > DOUBTED_TOUCH * self.depth;
-        elsewhere.then(|| {
+        let share = touches.abs() / self.depth;
+        if !self.is_similar() || share <= DOUBTED_TOUCH || first_touch_sought && share <= FARTHEST_TOUCH {
+            return None;
+        }
+        let way_out = if share > FARTHEST_TOUCH {
             format!(
-                "{}: √F points to first touch at {:.4} um, not at 0: a rounded tip or an offset; add unknown = [\"contact_depth\"] or a tip_radius",
-                self.name,
-                1e6 * touches
+                "farther than is sought by contact_depth ({:.0} % of the depth): subtract it from the depths and leave out the approach",
+                100.0 * FARTHEST_TOUCH
             )
-        })
+        } else {
+            "a rounded tip or an offset; add unknown = [\"contact_depth\"] or a tip_radius".to_string()
+        };
+        Some(format!(
+            "{}: √F points to first touch at {:.4} um, not at 0: {way_out}",
+            self.name,
+            1e6 * touches
+        ))
     }
 
     /// Peak of the curve that is drawn: that of the data, or of a feature at its depth.

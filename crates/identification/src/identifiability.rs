@@ -1,12 +1,8 @@
-//! Identifiability of the unknowns, the null direction of the measurements, and the cone that would resolve
-//! it best.
+//! Identifiability of the unknowns, and the null direction of the measurements.
 
-use super::emulator::by_the_atlas;
-use super::experiment::{Data, Experiment};
+use super::experiment::Experiment;
 use super::objective::{Objective, curvature, slopes};
 use super::parameters::{Parameter, Slot, Unknowns};
-use super::response::{DesignPoint, Geometry};
-use crate::levenberg_marquardt::jacobian;
 use crate::profile_likelihood::Interval;
 use indexmap::IndexMap;
 use nalgebra::{DMatrix, DVector};
@@ -105,106 +101,6 @@ pub fn null_direction(
         })
         .collect();
     Some(NullDirection { text: words.join(" with "), change })
-}
-
-/// Another experiment and what it would do.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct NextExperiment {
-    /// Half apex angle of the sharp cone, degrees.
-    pub half_apex_deg: f64,
-    /// Quantities to be measured.
-    pub features: Vec<String>,
-    /// The unknown that it is for.
-    pub parameter: String,
-    /// Width of the interval of that unknown with it, over that without.
-    pub interval_ratio: f64,
-}
-
-/// Half apex angles that are looked at.
-const ANGLES: [f64; 8] = [45.0, 50.0, 55.0, 60.0, 65.0, 75.0, 80.0, 85.0];
-/// Noise of a next experiment where no measurement states its own.
-const NOISE: f64 = 0.01;
-/// Angles nearer than this to one that was measured are no other experiment, degrees.
-const MIN_ANGLE_DISTANCE: f64 = 4.0;
-
-/// Names of the quantities of a curve, those that an experiment like the given ones would measure.
-const FEATURES: [&str; 3] = ["loading_curvature", "unloading_slope", "plastic_work_ratio"];
-
-/// Those of [`FEATURES`] that `experiments` measured: a next experiment is expected to measure no more.
-fn measured_features(experiments: &[Experiment]) -> [bool; 3] {
-    let of = |e: &Experiment| match &e.data {
-        Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
-            [loading_curvature.is_some(), unloading_slope.is_some(), plastic_work_ratio.is_some()]
-        }
-        Data::Curve(curve) => [true, !curve.unloading.is_empty(), !curve.unloading.is_empty()],
-        Data::Imprint(_) | Data::ImprintNumbers(_) => [false; 3],
-    };
-    let all = experiments.iter().map(of).fold([false; 3], |a, b| [0, 1, 2].map(|k| a[k] || b[k]));
-    if all == [false; 3] { [true; 3] } else { all }
-}
-
-/// The sharp cone that would narrow the interval of unknown `of` most by the quantities that the given
-/// measurements have, by the atlas of cones.
-pub fn next_experiment(
-    objective: &Objective<'_>,
-    experiments: &[Experiment],
-    unknowns: &Unknowns,
-    point: &[f64],
-    of: usize,
-) -> Option<NextExperiment> {
-    let bounds = objective.bounds();
-    let slopes = jacobian(objective, point, &bounds)?;
-    // the bounds themselves are a weak measurement, without which nothing that is not seen had a width
-    let mut normal = slopes.tr_mul(&slopes);
-    for (i, parameter) in unknowns.parameters.iter().enumerate() {
-        normal[(i, i)] += 12.0 / parameter.width().powi(2).max(1e-12);
-    }
-    let width = |matrix: &DMatrix<f64>| Some(matrix.clone().try_inverse()?[(of, of)].sqrt());
-    let now = width(&normal)?;
-    let features = measured_features(experiments);
-    let first = experiments.first()?.design_point(unknowns, point)?;
-    let noise = experiments.iter().map(|e| e.noise).fold(NOISE, f64::max);
-    let measured = |angle: f64| {
-        experiments.iter().any(|e| match e.geometry {
-            Geometry::Sharp { slope_deg } => (90.0 - slope_deg - angle).abs() < MIN_ANGLE_DISTANCE,
-            _ => false,
-        })
-    };
-    let ratio = |angle: f64| {
-        let slope_deg = 90.0 - angle;
-        let at = |point: &[f64]| {
-            let metal = unknowns.metal(point)?;
-            let question = DesignPoint {
-                geometry: Geometry::Sharp { slope_deg },
-                imprint: false,
-                friction: None,
-                modulus: metal.elastic.youngs_modulus,
-                metal,
-                ..first.clone()
-            };
-            let logs = by_the_atlas(&question);
-            let modulus = question.modulus.ln();
-            let error = noise.hypot(0.01);
-            let all =
-                [(logs[0] + modulus) / error, (logs[1] + modulus) / (2.0 * error), logs[2] / (3.0 * error)];
-            Some(all.into_iter().zip(features).filter(|(_, has)| *has).map(|(x, _)| x).collect::<Vec<_>>())
-        };
-        let more = jacobian(&at, point, &bounds)?;
-        Some((angle, width(&(&normal + more.tr_mul(&more)))? / now))
-    };
-    let angles = ANGLES.iter().copied().filter(|a| !measured(*a));
-    let best = angles.filter_map(ratio).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(NextExperiment {
-        half_apex_deg: best.0,
-        features: FEATURES
-            .iter()
-            .zip(features)
-            .filter(|(_, has)| *has)
-            .map(|(name, _)| name.to_string())
-            .collect(),
-        parameter: unknowns.parameters[of].name.clone(),
-        interval_ratio: best.1,
-    })
 }
 
 /// Changes of all coordinates at the minimum as coordinate `i` grows by one, by their `deviations` and

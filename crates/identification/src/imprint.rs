@@ -193,7 +193,7 @@ impl Imprint {
     }
 }
 
-/// What the error of a height near the rim has beside that of all heights, over the latter, at `place` over
+/// Error of a height near the rim beside that of all heights, over the latter, at `place` over
 /// the contact radius.
 fn of_the_rim(place: f64) -> f64 {
     RIM_FACTOR * alike(place - 1.0, RIM_RADII)

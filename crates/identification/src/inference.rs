@@ -5,10 +5,10 @@ use crate::accord::accords;
 use crate::branches::{allowed_minima, branches};
 use crate::experiment::{Data, Experiment};
 use crate::identifiability::{
-    Decided, NextExperiment, NullDirection, along_coordinate, decided, deviations, identified,
-    next_experiment, null_direction,
+    Decided, NullDirection, along_coordinate, decided, deviations, identified, null_direction,
 };
 use crate::levenberg_marquardt::{Minimum, minimise};
+use crate::next_experiment::{NextExperiment, next_experiment};
 use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
 use crate::objective::{Misfit, Objective};
 use crate::parameters::{Parameter, Slot, Unknowns};
@@ -32,7 +32,7 @@ pub struct Inference {
     pub verdict: String,
     /// The direction in which they see least.
     pub blind_direction: Option<NullDirection>,
-    /// The sharp cone that would narrow the widest interval most; none where everything is told.
+    /// The experiment that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
     /// Narrowing of the intervals by each of several measurements.
     pub decided: Vec<Decided>,

@@ -52,6 +52,7 @@ pub mod identifiability;
 
 pub mod numbers;
 
+pub mod next_experiment;
 pub mod noise;
 
 mod accord;

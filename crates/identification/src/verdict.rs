@@ -1,10 +1,14 @@
 //! Verdict on what the measurements tell and what they do not, in words.
 
-use crate::identifiability::{NextExperiment, NullDirection};
+use crate::identifiability::NullDirection;
+use crate::next_experiment::NextExperiment;
 use crate::numbers::{Found, Residual, StressAt};
 use asperity_material::units::rounded;
 use indexmap::IndexMap;
 use std::fmt::Write;
+
+/// Share of the width of an interval below which an experiment that leaves it is named beside the best one.
+const WORTH_SAYING: f64 = 0.9;
 
 /// The verdict, in one sentence that can be quoted.
 pub fn verdict(
@@ -20,8 +24,8 @@ pub fn verdict(
     };
     if let Some(accord) = residual.accords.iter().find(|accord| !accord.holds) {
         return format!(
-            "not identifiable: no metal explains {} and the other measurements together, so the model is rejected (χ² grows by {:.1} where one metal has to serve both); look whether they belong to one indent, for a wrong unit, tool, law or level",
-            accord.measurement, accord.growth
+            "not identifiable: no metal explains both the measurement \"{}\" and the others, so the model is rejected (where one metal has to serve both χ² grows by {:.1}, of which chance allows {:.1}); look whether they belong to one indent, for a wrong unit, tool, law or level",
+            accord.measurement, accord.growth, accord.growth_limit
         );
     }
     if !residual.fits {
@@ -59,13 +63,12 @@ pub fn verdict(
         );
     }
     if let Some(next) = next {
-        let _ = write!(
-            text,
-            "; a sharp cone of {:.0} degrees half apex angle beside these would narrow the interval of {} to {:.0} % of its width",
-            next.half_apex_deg,
-            next.parameter,
-            100.0 * next.interval_ratio
-        );
+        let percent = |ratio: f64| format!("to {:.0} % of its width", 100.0 * ratio);
+        let (name, by) = (&next.parameter, percent(next.interval_ratio));
+        let _ = write!(text, "; {} beside these would narrow the interval of {name} {by}", next.text);
+        for other in next.others.iter().filter(|other| other.interval_ratio < WORTH_SAYING) {
+            let _ = write!(text, ", {} {}", other.text, percent(other.interval_ratio));
+        }
     }
     text
 }

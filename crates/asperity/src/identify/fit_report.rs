@@ -118,7 +118,7 @@ impl Identification {
         }
     }
 
-    /// What the fit leaves of each measurement.
+    /// Residuals of each measurement.
     fn residuals(&self, numbers: &Numbers) -> Markup {
         let row = |(i, curve): (usize, &CurveResidual)| {
             let place = |key: &str| format!("/residual/curves/{i}/{key}");

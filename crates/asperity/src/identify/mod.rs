@@ -23,8 +23,9 @@ mod fit_report;
 pub use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
-pub use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
+pub use asperity_identification::identifiability::{Decided, NullDirection};
 pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
+pub use asperity_identification::next_experiment::{NextExperiment, OtherExperiment};
 pub use asperity_identification::numbers::StressAt;
 pub use asperity_identification::numbers::{Accord, CurveResidual, Found, Residual};
 pub use fit::Fit;

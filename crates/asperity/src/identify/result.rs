@@ -10,9 +10,10 @@ use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt, json};
 use asperity_identification::experiment::Experiment;
 use asperity_identification::fit_file::{FitCurve, FitShape};
-use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
+use asperity_identification::identifiability::{Decided, NullDirection};
 use asperity_identification::inference::{Inference, Sampling, infer};
 use asperity_identification::levenberg_marquardt::Minimum;
+use asperity_identification::next_experiment::NextExperiment;
 use asperity_identification::noise::noise_from_scatter;
 use asperity_identification::numbers::StressAt;
 use asperity_identification::numbers::{Found, Residual};
@@ -41,7 +42,7 @@ pub struct Identification {
     pub verdict: String,
     /// The direction in which they see least.
     pub blind_direction: Option<NullDirection>,
-    /// The sharp cone that would narrow the widest interval most; none where everything is told.
+    /// The experiment that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
     /// Narrowing of the intervals by each of several measurements.
     #[serde(skip_serializing_if = "Vec::is_empty")]

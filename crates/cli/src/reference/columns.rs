@@ -154,7 +154,8 @@ fn of_identify() -> String {
         ("fit.json: `curves` of `residual`", "each measurement", "CurveResidual"),
         ("fit.json: `accords` of `residual`", "each imprint beside the other measurements", "Accord"),
         ("fit.json: `decided`", "what each of several measurements tells", "Decided"),
-        ("fit.json: `next_experiment`", "the cone to take next", "NextExperiment"),
+        ("fit.json: `next_experiment`", "the experiment to make next", "NextExperiment"),
+        ("fit.json: `next_experiment.others`", "experiments of other kinds", "OtherExperiment"),
     ];
     let mut text = keys("fit.json", "what was found", &schema);
     text.extend(parts.iter().map(|(file, about, name)| keys(file, about, &schema["$defs"][name])));

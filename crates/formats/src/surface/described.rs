@@ -24,6 +24,8 @@ pub(super) struct Described {
     units: [Option<f64>; 2],
     /// True where the unit of heights is said to be theirs.
     is_of_heights: bool,
+    /// True where a unit is named of nothing in particular.
+    is_of_all: bool,
     /// The mark before decimals, where anything tells it.
     decimal: Option<Decimal>,
     /// Whole numbers of the words, with their lines.
@@ -67,6 +69,7 @@ impl Described {
             said.take_unit(remark, request)?;
         }
         said.take_title(&grid.before);
+        said.take_list(&grid.before);
         let [x, y] = said.units;
         said.lateral_unit = match (x, y) {
             (Some(x), Some(y)) => Some(x).filter(|_| x == y),
@@ -132,6 +135,7 @@ impl Described {
             };
             return Err(TextError::new(remark.line, problem).into());
         }
+        self.is_of_all |= !is_of_heights && scale.is_some();
         match (self.height_unit, scale) {
             (Some(known), Some(other)) if is_of_heights && self.is_of_heights && known != other => {
                 let problem = format!(
@@ -144,6 +148,32 @@ impl Described {
             _ => (self.height_unit, self.is_of_heights) = (scale.or(self.height_unit), is_of_heights),
         }
         Ok(())
+    }
+
+    /// True where the file names a unit, and not of its heights alone.
+    pub fn has_one_unit(&self) -> bool {
+        self.is_of_all
+    }
+
+    /// The units of a list of names: `X [µm], Y [µm], Z [nm]` or `x/y in mm; z in nm`.
+    fn take_list(&mut self, before: &[(usize, &str)]) {
+        for (_, text) in before {
+            let text = text.trim_start_matches(['#', '%', '/', ' ']);
+            let one = |piece: &str| {
+                let bracketed = || piece.split_once(['[', '(']);
+                let (name, unit) = piece.split_once(" in ").or_else(bracketed)?;
+                let axis = name.trim().rsplit(' ').next().unwrap_or("").to_lowercase();
+                Some((axis, Dimension::Length.scale(unit.trim_matches([']', ')', ' ']))?))
+            };
+            let named: Vec<(String, f64)> = text.split([',', ';', '\t']).filter_map(one).collect();
+            let of = |names: &[&str]| named.iter().find(|(axis, _)| names.contains(&&**axis)).map(|n| n.1);
+            let (both, z) = (of(&["x/y", "xy"]), of(&["z"]));
+            if let (Some(x), Some(y), Some(z)) = (both.or(of(&["x"])), both.or(of(&["y"])), z) {
+                self.units = [self.units[0].or(Some(x)), self.units[1].or(Some(y))];
+                self.height_unit = self.height_unit.or(Some(z));
+                self.is_of_heights = true;
+            }
+        }
     }
 
     /// The unit of a title: `Height [nm]`, `z: um`, `Heights in nm`.

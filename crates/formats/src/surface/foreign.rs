@@ -8,7 +8,7 @@ pub(super) const LOOKED_AT: u64 = 1024;
 const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p or text";
 
 /// Beginning, name, and what to do.
-const KINDS: [(&[u8], &str, &str); 18] = [
+const KINDS: [(&[u8], &str, &str); 19] = [
     (b"\x89PNG", "a PNG picture", PICTURE),
     (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
     (b"GIF8", "a GIF picture", PICTURE),
@@ -43,6 +43,11 @@ const KINDS: [(&[u8], &str, &str); 18] = [
         b"Zygo ASCII Data File",
         "a Zygo ASCII file of raw phase",
         "export it as XYZ, .datx or .dat in MetroPro or Mx",
+    ),
+    (
+        b"Binary TrueMap Data File",
+        "a TrueMap file (.tmd)",
+        "export it as .sur, .x3p or text in TrueMap (Gwyddion opens it, too)",
     ),
     (b"DSBB", "a binary grid of Surfer (.grd)", "save it as a text grid (DSAA) or as XYZ in Surfer"),
     (b"Rar!", "a RAR archive", "unpack it and give the file of the surface itself"),

@@ -121,7 +121,8 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     notes.extend(doubt);
     let spacing_error = if spacing.is_some() { 0.0 } else { axes.error() };
     let spacing = spacing.or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
-    notes.extend(axes.doubt.filter(|_| spacing == Spacing::Unknown));
+    let doubt = axes.doubt.clone().or_else(|| places_without_unit(&axes));
+    notes.extend(doubt.filter(|_| spacing == Spacing::Unknown));
     let height_unit = said.height_unit.or(axes.height_unit);
     Ok(Measured { columns, rows, heights: grid.values, spacing, spacing_error, height_unit, notes })
 }
@@ -131,8 +132,17 @@ fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
     let (x, y) = (axes.steps[0]?.length, axes.steps[1]?.length);
     match axes.lateral_unit.or(said.lateral_unit) {
         Some(unit) => Some(Spacing::Metres([x * unit, y * unit])),
-        None => axes.doubt.is_none().then_some(Spacing::HeightUnits([x, y])),
+        // a unit of everything is theirs, too; one of the heights is not
+        None => (axes.doubt.is_none() && said.has_one_unit()).then_some(Spacing::HeightUnits([x, y])),
     }
+}
+
+/// A remark on places beside the map whose unit nothing tells.
+fn places_without_unit(axes: &Axes) -> Option<String> {
+    let (x, y) = (axes.steps[0]?.length, axes.steps[1]?.length);
+    Some(format!(
+        "the places beside the map go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like"
+    ))
 }
 
 /// The columns of x, y and z where a header or the request names them.

@@ -337,7 +337,7 @@ fn are_aligned(names: Option<&str>, rows: &[(usize, &str)]) -> bool {
     rows.iter().all(|(_, row)| is_aligned(cells(row)))
 }
 
-/// What stands between the bars at both ends of a line, if it has them.
+/// The text between the bars at both ends of a line, if it has them.
 fn framed(line: &str) -> &str {
     line.strip_prefix('|').map_or(line, |inside| inside.strip_suffix('|').unwrap_or(inside))
 }

@@ -150,8 +150,9 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         }
         if is_comment(bare) && !self.are_units(bare) {
             let content = bare.trim_start_matches(['#', '%', '/', ' ']);
-            // a header behind the sign of a comment, as NumPy writes it
-            if self.series.is_empty()
+            // a header behind the sign of a comment, as NumPy writes it; said again it begins another test
+            let repeats = self.block.as_ref().is_some_and(|block| block.header.text.trim() == content);
+            if (self.series.is_empty() || repeats)
                 && let Some(header) = Header::new(&self.dialect, line, content, self.wanted, self.named)
             {
                 self.begin(header);

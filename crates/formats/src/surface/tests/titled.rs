@@ -48,6 +48,8 @@ fn pixels_of_a_zygo_file_are_those_of_its_camera() {
     assert!(
         found("a.asc", "Zygo ASCII Data File - Format 2\n1 2\n").unwrap_err().contains("export it as XYZ")
     );
+    let true_map = found("a.tmd", "Binary TrueMap Data File v2.0\r\n\0").unwrap_err();
+    assert!(true_map.contains("a TrueMap file (.tmd)") && true_map.contains("export it as"), "{true_map}");
 }
 
 #[test]

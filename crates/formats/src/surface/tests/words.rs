@@ -172,7 +172,18 @@ fn points_that_scatter_are_put_on_their_grid_and_clouds_refused() {
 fn coordinates_beside_a_map_are_no_heights() {
     let axes = found("a.csv", ";0,0;0,5;1,0\n0;1;2;3\n0,25;4;;6\n0,5;7;8;9\n").unwrap();
     assert_eq!((axes.columns, axes.rows, axes.heights[3]), (3, 3, 4.0));
-    assert_eq!(axes.spacing, Spacing::HeightUnits([0.5, 0.25]));
+    // nothing tells their unit, and that of the heights need not be theirs
+    assert_eq!(axes.spacing, Spacing::Unknown);
+    assert!(axes.notes.iter().any(|note| note.contains("0.5 and 0.25 and name no unit")), "{:?}", axes.notes);
+    let one = found("a.csv", "unit: um\n;0,0;0,5;1,0\n0;1;2;3\n0,25;4;;6\n0,5;7;8;9\n").unwrap();
+    assert_eq!(one.spacing, Spacing::HeightUnits([0.5, 0.25]));
+    for (names, lateral) in
+        [("X [mm], Y [mm], Z [nm]", 1e-3), ("x/y in um; z in nm", 1e-6), ("X/Y [µm]; Z [nm]", 1e-6)]
+    {
+        let own = found("a.csv", &format!("{names}\n;0,0;0,5;1,0\n0;1;2;3\n0,25;4;;6\n0,5;7;8;9\n")).unwrap();
+        assert_eq!(own.spacing, Spacing::Metres([0.5 * lateral, 0.25 * lateral]), "{names}");
+        assert_eq!(own.height_unit, Some(1e-9), "{names}");
+    }
     // numbers of rows and columns, as a table of a program has them
     let counted = found("a.csv", ",0,1,2\n0,1,2,3\n1,4,,6\n2,7,8,9\n").unwrap();
     assert_eq!((counted.columns, counted.rows, counted.spacing), (3, 3, Spacing::Unknown));

@@ -130,3 +130,14 @@ fn a_unit_before_a_table_that_contradicts_its_column_is_refused_with_both() {
     let two = "Load unit: mN\nDepth (nm),Load (N),Load (mN)\n100,0.002,2\n200,0.008,8\n";
     is_the_curve(two, [Some("Depth (nm)"), Some("Load (mN)")]);
 }
+
+/// FemtoTools writes the header of each indent behind the sign of a comment.
+#[test]
+fn a_header_repeated_behind_the_sign_of_a_comment_begins_another_test() {
+    let one = "// Depth [nm]\tLoad [mN]\n100\t2\n200\t8\n";
+    let table = indentation::read(&format!("{one}\n{one}"), COLUMNS, None).unwrap();
+    assert_eq!(table.series.iter().map(|test| test.rows.len()).collect::<Vec<_>>(), [2, 2], "{table:?}");
+    // another remark between the rows begins none
+    let table = indentation::read(&format!("{one}// a pause\n300\t18\n"), COLUMNS, None).unwrap();
+    assert_eq!((table.series.len(), table.series[0].rows.len()), (1, 3), "{table:?}");
+}
