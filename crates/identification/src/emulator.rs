@@ -111,8 +111,8 @@ fn share_of_an_error(error: f64, amplitude: f64) -> f64 {
     (0.5 * error / amplitude).powi(2).max(1e-6)
 }
 
-/// Least scatter of a curve about a polynomial: what the mesh, which differs from metal to metal, leaves. That of
-/// heights is their error.
+/// Least scatter of a curve about a polynomial: what the mesh, which differs from metal to metal, leaves.
+/// That of heights is their error.
 const MIN_AMPLITUDE: f64 = 0.003;
 
 impl Emulator {

@@ -41,9 +41,9 @@ const ALIKE_RADII: f64 = 0.25;
 /// Standard deviation over the depth of a height by finite elements at `standard` under a sharp cone; twice
 /// that under other tools, whose meshes are no similar ones, and twice that again at `draft`.
 ///
-/// Measured against `reference` on ten metals (E/σ_y 100 to 600, n to 0.3) under a cone of 70.3° and on twelve
-/// under balls to a/R 0.37: rms of 0.0003 to 0.0006 (cones) and 0.0005 to 0.0012 (balls) at `standard`, 0.0003
-/// to 0.0009 and 0.0009 to 0.0018 at `draft`, but for the rim.
+/// Measured against `reference` on ten metals (E/σ_y 100 to 600, n to 0.3) under a cone of 70.3° and on
+/// twelve under balls to a/R 0.37: rms of 0.0003 to 0.0006 (cones) and 0.0005 to 0.0012 (balls) at
+/// `standard`, 0.0003 to 0.0009 and 0.0009 to 0.0018 at `draft`, but for the rim.
 const HEIGHT_ERROR: f64 = 5e-4;
 /// Error of the rim over that elsewhere, the contact radii over which it falls, and those over which it is
 /// alike: an element there is longer than the bend.
@@ -55,8 +55,8 @@ const RIM_RADII: f64 = 0.04;
 const RIM_ALIKE_RADII: f64 = 0.02;
 /// Contact radii beside the rim within which a surface is taken as straight between its points.
 const BENT_RADII: f64 = 0.12;
-/// Errors of the numbers of an imprint over that of a height: of the highest point, of the lowest one, of the
-/// logarithm of the rim's radius.
+/// Errors of the numbers of an imprint over that of a height: of the highest point, of the lowest one, of
+/// the logarithm of the rim's radius.
 ///
 /// Measured on the same: 2 to 6, 0.4 to 0.8, 16 to 23.
 pub const ERRORS_OF_NUMBERS: [f64; 3] = [5.0, 1.0, 20.0];
@@ -66,8 +66,8 @@ pub const ERRORS_OF_NUMBERS: [f64; 3] = [5.0, 1.0, 20.0];
 pub struct Imprint {
     /// Place (m, negative on the other side of the axis) and height above the far field (m).
     pub points: Vec<[f64; 2]>,
-    /// Places (m) of the readings of which each point is the mean: about the rim, where the surface bends, the
-    /// mean of heights is not the height at the mean place.
+    /// Places (m) of the readings of which each point is the mean: about the rim, where the surface bends,
+    /// the mean of heights is not the height at the mean place.
     pub places: Vec<Vec<f64>>,
     /// Noise of a height, a sum of parts that are alike over a length each.
     pub noise: Vec<NoisePart>,
@@ -244,7 +244,7 @@ pub fn numbers(mut points: Vec<[f64; 2]>, radius: f64) -> Option<Vec<f64>> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     points.dedup_by(|a, b| a[0] == b[0]);
     let far = points.last()?[1];
-    let heights = PLACES.iter().map(|place| between(&points, place * radius, *place) - far);
+    let heights = PLACES.iter().map(|place| height_between(&points, place * radius, *place) - far);
     Some(std::iter::once(radius.ln()).chain(heights).collect())
 }
 
@@ -259,13 +259,13 @@ pub fn surface(numbers: &[f64]) -> impl Fn(f64) -> f64 + use<> {
     let points: Vec<[f64; 2]> = PLACES.iter().zip(&numbers[1..]).map(|(place, z)| [*place, *z]).collect();
     move |place| {
         let place = (place.abs() / radius).min(FARTHEST_RADII);
-        between(&points, place, place)
+        height_between(&points, place, place)
     }
 }
 
-/// Height at `x` between `points` of a surface, which is `place` contact radii from the axis: a cubic, as hole
-/// and far field bend smoothly, but about the rim, where a cubic would swing.
-fn between(points: &[[f64; 2]], x: f64, place: f64) -> f64 {
+/// Height at `x` between `points` of a surface, which is `place` contact radii from the axis: a cubic, as
+/// hole and far field bend smoothly, but about the rim, where a cubic would swing.
+fn height_between(points: &[[f64; 2]], x: f64, place: f64) -> f64 {
     if (place - 1.0).abs() < BENT_RADII { linear_between(points, x) } else { smooth(points, x) }
 }
 
@@ -301,8 +301,8 @@ mod tests {
         assert!((pile_up - 0.1).abs() < 1e-3 && (residual - 1.0).abs() < 1e-6 && (rim - 3.0).abs() < 1e-9);
     }
 
-    /// The hole of a ball is round: straight lines between nodes a twentieth and places a tenth of the contact
-    /// apart would leave 0.003 of the depth, more than finite elements are off.
+    /// The hole of a ball is round: straight lines between nodes a twentieth and places a tenth of the
+    /// contact apart would leave 0.003 of the depth, more than finite elements are off.
     #[test]
     fn the_round_hole_of_a_ball_is_read_back() {
         let round = |r: f64| (0.5 * r * r).min(1.0) - 1.0;
@@ -313,7 +313,8 @@ mod tests {
         }
     }
 
-    /// A profile of four readings a kept point: the surface that it is of is what is read of it, at the rim too.
+    /// A profile of four readings a kept point: the surface that it is of is what is read of it, at the rim
+    /// too.
     #[test]
     fn means_over_a_bent_rim_are_compared_with_means() {
         let points: Vec<[f64; 2]> =

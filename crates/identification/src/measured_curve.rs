@@ -168,8 +168,8 @@ fn first_at(readings: &[[f64; 2]], force: f64) -> usize {
     (0..readings.len()).find(|i| mean_force(readings, *i, side) >= force).unwrap_or(readings.len() - 1)
 }
 
-/// True where the force stayed while the depth grew over `readings` up to the `peak`: by more than the scatter
-/// of the `loading` before them makes of a force that grows, or for longer.
+/// True where the force stayed while the depth grew over `readings` up to the `peak`: by more than the
+/// scatter of the `loading` before them makes of a force that grows, or for longer.
 fn is_held(loading: &[[f64; 2]], readings: &[[f64; 2]], peak: [f64; 2]) -> bool {
     let held: Vec<[f64; 2]> = readings.iter().map(|p| [p[0] / peak[0], p[1] / peak[1]]).collect();
     let start = loading.last().map_or(0.0, |p| p[0]);
@@ -359,9 +359,10 @@ mod tests {
         }
     }
 
-    /// Forces of a ball, which grow nearly as the depth, with noise of 1 %: a lucky force before the peak begins
-    /// no hold. One of sixty readings with a creep of 1 % of the depth is found under the same noise, nine of ten
-    /// times: it begins where the mean of nine, which is off by 0.3 %, comes to the peak's force.
+    /// Forces of a ball, which grow nearly as the depth, with noise of 1 %: a lucky force before the peak
+    /// begins no hold. One of sixty readings with a creep of 1 % of the depth is found under the same noise,
+    /// nine of ten times: it begins where the mean of nine, which is off by 0.3 %, comes to the peak's
+    /// force.
     #[test]
     fn noise_makes_no_hold_of_the_loading_of_a_ball() {
         let mut seed = 11_u64;

@@ -1,5 +1,5 @@
-//! The experiment that would narrow an interval most beside those that were made: a sharp cone, a ball, or the
-//! imprint of a curve.
+//! The experiment that would narrow an interval most beside those that were made: a sharp cone, a ball, or
+//! the imprint of a curve.
 
 use super::emulator::by_the_atlas;
 use super::experiment::{Data, Experiment};
@@ -128,8 +128,8 @@ impl Candidate<'_> {
 }
 
 /// Height of the pile-up over the depth, about: least squares through 64 sharp cones by finite elements at
-/// `draft` (slopes of 10 to 40°, E/σ_y 40 to 700, n to 0.45, ν 0.3), which it meets to 0.013 rms. It serves to
-/// plan an experiment, not to judge one. Beyond those cones it stays.
+/// `draft` (slopes of 10 to 40°, E/σ_y 40 to 700, n to 0.45, ν 0.3), which it meets to 0.013 rms. It serves
+/// to plan an experiment, not to judge one. Beyond those cones it stays.
 fn pile_up(question: &DesignPoint, slope: f64) -> f64 {
     let law = &question.metal.hardening;
     let strength = law.yield_stress().min(question.modulus);
@@ -232,8 +232,8 @@ mod tests {
     use crate::parameters::Metal;
     use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 
-    /// Three metals of one loading curvature under a cone of 70.3°, E 120 GPa, whose pile-up by finite elements
-    /// at `standard` is 0.158, 0.096 and 0.053 of the depth: an imprint parts them.
+    /// Three metals of one loading curvature under a cone of 70.3°, E 120 GPa, whose pile-up by finite
+    /// elements at `standard` is 0.158, 0.096 and 0.053 of the depth: an imprint parts them.
     #[test]
     fn pile_up_parts_metals_of_one_loading_curvature() {
         for (yield_stress, exponent, computed) in
