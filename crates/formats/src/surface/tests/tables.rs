@@ -43,7 +43,8 @@ fn places_rounded_to_their_last_digit_are_places() {
     let sizes = [30, 20];
     for (digits, step) in [(1, [0.695; 2]), (2, [0.0139, 0.0247]), (0, [1.39, 2.61]), (3, [0.0139; 2])] {
         for corner in ["", "0", "Y/X"] {
-            let map = found("a.txt", &with_places(corner, digits, step, sizes)).unwrap();
+            let text = format!("unit: um\n{}", with_places(corner, digits, step, sizes));
+            let map = found("a.txt", &text).unwrap();
             has_step(&map, step, sizes);
             assert!(map.notes.iter().any(|note| note.contains("rounded")), "{:?}", map.notes);
         }
