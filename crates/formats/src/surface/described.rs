@@ -69,7 +69,7 @@ impl Described {
             said.take_unit(remark, request)?;
         }
         said.take_title(&grid.before);
-        said.take_list(&grid.before);
+        said.take_list(grid);
         let [x, y] = said.units;
         said.lateral_unit = match (x, y) {
             (Some(x), Some(y)) => Some(x).filter(|_| x == y),
@@ -156,8 +156,12 @@ impl Described {
     }
 
     /// The units of a list of names: `X [µm], Y [µm], Z [nm]` or `x/y in mm; z in nm`.
-    fn take_list(&mut self, before: &[(usize, &str)]) {
-        for (_, text) in before {
+    /// Names above as many columns are those of points.
+    fn take_list(&mut self, grid: &Grid<'_>) {
+        for (_, text) in &grid.before {
+            if grid.dialect.cells(text).count() == grid.columns {
+                continue;
+            }
             let text = text.trim_start_matches(['#', '%', '/', ' ']);
             let one = |piece: &str| {
                 let bracketed = || piece.split_once(['[', '(']);
