@@ -110,7 +110,7 @@ pub fn imprints(tool: Indenter, count: usize, length: f64) -> Vec<Case> {
     (0..count).into_par_iter().with_max_len(1).filter_map(one).collect()
 }
 
-/// What a tool leaves: the surface after unloading, places and heights over the depth, 0 far away; and the
+/// The imprint of a tool: the surface after unloading, places and heights over the depth, 0 far away; and the
 /// contact radius under load.
 pub struct Left {
     pub surface: Vec<[f64; 2]>,

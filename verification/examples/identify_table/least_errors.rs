@@ -20,7 +20,7 @@ const CHANGE: f64 = 0.06;
 /// Metals for which slopes are taken: the first of a sequence that covers all evenly.
 const METALS: usize = 8;
 
-/// What is measured of a metal of E 1: logarithms of the forces of loading and unloading at known depths, and
+/// Measurements of a metal of E 1: logarithms of the forces of loading and unloading at known depths, and
 /// heights over the depth at known places.
 struct Measured {
     loading: f64,
