@@ -175,6 +175,12 @@ fn curves() -> Vec<Dialect> {
             "Units: s, nm, mN\nTime,Depth,Load\n0,100,2\n1,200,8\n",
         ),
         dialect(
+            "a unit behind each number",
+            "loggers that format their cells",
+            "curve.txt",
+            "Depth\tLoad\n100.0 nm\t2 mN\n0.2 um\t8 mN\n",
+        ),
+        dialect(
             "several tabs between numbers, one between names",
             "C programs that line columns up",
             "curve.txt",
@@ -303,6 +309,12 @@ fn maps() -> Vec<Dialect> {
             "Wyko and Veeco Vision, .asc",
             "map.asc",
             "Wyko ASCII Data File Format 0\t1\t1\nX Size\t3\nY Size\t2\nBlock Name\tType\tLength\tValue\nWavelength\t7\t4\t600\nPixel_size\t7\t4\t0.001\nRAW_DATA\t3\t24\t\n4\t1\nBad\t2\n6\t3\n",
+        ),
+        dialect(
+            "names above the values of the header",
+            "Filmetrics ProfilmOnline, text export",
+            "map.txt",
+            &head("pixelSize (um)\n1\nZ-data (nm)\n"),
         ),
         dialect(
             "a number for missing points in the header",

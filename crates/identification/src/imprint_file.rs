@@ -140,7 +140,11 @@ fn profile(text: &str, encoding: &str, radius: f64, reading: Reading<'_>) -> Res
 /// and the place of that; `None` of a profile that counts from the middle.
 fn centred(points: &[[f64; 2]], radius: f64) -> Option<(Vec<[f64; 2]>, f64)> {
     let mut points: Vec<[f64; 3]> = points.iter().map(|p| [p[0], 0.0, p[1]]).collect();
-    let [middle, _] = level(&mut points, radius, |p| [1.0, p[0] / radius]).ok()?;
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    // sums are integrals over the line: readings that stand close together count for no more of it
+    let place = |i: usize| points[i.min(points.len() - 1)][0];
+    let lengths: Vec<f64> = (0..points.len()).map(|i| place(i + 1) - place(i.saturating_sub(1))).collect();
+    let [middle, _] = level(&mut points, radius, |i| lengths[i], |p| [1.0, p[0] / radius]).ok()?;
     let reaches = |side: f64| points.iter().any(|p| side * (p[0] - middle) > LINE_RADII * radius);
     let crosses = middle.abs() > CENTRED_RADII * radius && reaches(-1.0) && reaches(1.0);
     crosses.then(|| (points.iter().map(|p| [p[0] - middle, p[2]]).collect(), middle))
@@ -179,23 +183,25 @@ fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, St
     Ok(ImprintRead { points: radial_mean(&measured, pixel, unit, radius)?, are_means: true, understood })
 }
 
-/// Levels `points` (x, y, z) by what lies far from the hole, a plane of the terms of `row`; the middle of the
-/// hole.
+/// Levels `points` (x, y, z), which stand for so much of the surface as `share` says, by what lies far from
+/// the hole, a plane of the terms of `row`; the middle of the hole.
 ///
 /// # Errors
 /// Too little beside the hole, or none.
 fn level<const N: usize>(
     points: &mut [[f64; 3]],
     radius: f64,
+    share: impl Fn(usize) -> f64,
     row: impl Fn(&[f64; 3]) -> [f64; N],
 ) -> Result<[f64; 2], String> {
     // a slope of the whole comes first, so that its lower side is no hole; then the hole has no say
     for round in 0..3 {
-        let centre = if round == 0 { None } else { Some(centre(points)?) };
-        let far = |p: &&[f64; 3]| {
+        let centre = if round == 0 { None } else { Some(centre(points, &share)?) };
+        let far = |(_, p): &(usize, &[f64; 3])| {
             centre.is_none_or(|c: [f64; 2]| (p[0] - c[0]).hypot(p[1] - c[1]) > LEVEL_RADII * radius)
         };
-        let rows: Vec<_> = points.iter().filter(far).map(|p| (row(p), p[2], 1.0)).collect();
+        let rows: Vec<_> =
+            points.iter().enumerate().filter(far).map(|(i, p)| (row(p), p[2], share(i))).collect();
         let plane = least_squares::solve(&rows).filter(|_| rows.len() > 20).ok_or_else(|| {
             format!(
                 "shows too little beside the imprint to level it: it has to reach beyond {LEVEL_RADII} contact radii, {:.3} um",
@@ -206,7 +212,7 @@ fn level<const N: usize>(
             p[2] -= row(p).iter().zip(&plane).map(|(term, of)| term * of).sum::<f64>();
         }
     }
-    centre(points)
+    centre(points, &share)
 }
 
 /// Mean heights over rings about the middle of the hole, levelled by a plane through what lies far from it.
@@ -223,7 +229,7 @@ fn radial_mean(
         })
         .filter(|p| p[2].is_finite())
         .collect();
-    let middle = level(&mut points, radius, |p| [1.0, p[0] / radius, p[1] / radius])?;
+    let middle = level(&mut points, radius, |_| 1.0, |p| [1.0, p[0] / radius, p[1] / radius])?;
     let width = radius / RINGS;
     let mut rings: Vec<(f64, [f64; 2])> = Vec::new();
     for p in &points {
@@ -257,11 +263,11 @@ fn ground(means: &[[f64; 2]], radius: f64) -> f64 {
 }
 
 /// Middle of the hole, weighted by its depth.
-fn centre(points: &[[f64; 3]]) -> Result<[f64; 2], String> {
+fn centre(points: &[[f64; 3]], share: impl Fn(usize) -> f64) -> Result<[f64; 2], String> {
     let lowest = points.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
     let mut sums = [0.0; 3];
-    for p in points {
-        let weight = (HOLE_SHARE * lowest - p[2]).max(0.0);
+    for (i, p) in points.iter().enumerate() {
+        let weight = share(i) * (HOLE_SHARE * lowest - p[2]).max(0.0);
         sums = [sums[0] + weight, sums[1] + weight * p[0], sums[2] + weight * p[1]];
     }
     if sums[0].is_nan() || sums[0] <= 0.0 {
@@ -317,6 +323,10 @@ mod tests {
             let cone = (0.2 * x.abs() - 1e-6).min(0.0);
             assert!((z - cone).abs() < 0.02e-6, "{x:e} {z:e} {cone:e}");
         }
+        // as finite elements write it: close points under the tool, the last ones a thousand radii away
+        let growing = (0..200).map(|k| 0.05e-6 * f64::from(k) + 1e-8 * 1.06_f64.powi(k));
+        let surface: Vec<[f64; 2]> = growing.map(|r| [r, (0.2 * r - 1e-6).min(0.0)]).collect();
+        assert_eq!(centred(&surface, 5e-6), None);
         assert_eq!(centred(&line(0.0, 20e-6, 0.0, 0.0), 5e-6), None);
         assert_eq!(centred(&line(-20e-6, 20e-6, 0.1e-6, 0.0), 5e-6), None);
     }

@@ -7,6 +7,7 @@ use crate::page::{self, Numbers, Report};
 use crate::results::numbers::significant;
 use asperity_identification::identifiability::Decided;
 use asperity_identification::numbers::{CurveResidual, Found};
+use asperity_material::units::rounded;
 use maud::{Markup, html};
 
 /// Plastic strains at which the report tells the stress.
@@ -27,7 +28,7 @@ impl Identification {
             vec![
                 html! { (name.replace('_', " ")) (unit) },
                 at("value"),
-                html! { (at("low")) " to " (at("high")) },
+                self.interval(html! { (at("low")) " to " (at("high")) }),
                 html! { (told) },
             ]
         };
@@ -35,14 +36,15 @@ impl Identification {
         let caption = if self.residual.fits {
             "What was sought, with 95 % intervals by the fit. How often they held for known metals: Metals found again, a page of the book."
         } else {
-            "No metal explains the measurements: these are the nearest values, and their intervals mean nothing."
+            "No metal explains the measurements: these are the nearest values, and they have no intervals."
         };
-        let stress = stress_strain(&self.stress_strain);
+        let stress = stress_strain(&self.stress_strain, self.residual.fits);
+        let band = "Where the fit is right, 95 % of the residuals lie in the pale band: noise and errors of the finite elements together.";
         let sections = html! {
             h2 { "Numbers" }
             (page::table(caption, &["quantity", "value", "95 % interval", "identifiable"], &parameters))
             (self.stresses(&numbers))
-            (self.decisions())
+            @if self.residual.fits { (self.decisions()) }
             h2 { "Curves" }
             @if let Some(forces) = self.drawn.forces() {
                 (page::chart(&forces, "Measured points of force over depth, and the fit through them.", "Measured points and the fit.")?)
@@ -50,9 +52,15 @@ impl Identification {
             @if let Some(imprints) = self.drawn.imprints() {
                 (page::chart(&imprints, "Heights of the imprint over the distance from the axis, measured and fitted.", "The imprint and the surface that finite elements leave.")?)
             }
-            (page::chart(&self.drawn.left(), "Residuals of the fit.", "Measured less fitted force; of unloading the depth over the deepest.")?)
-            (page::chart(&stress, "Stress over plastic strain with the band of its error.", "The stress-strain curve with its 95 % band.")?)
-            @if let Some(svg) = self.objective_svg()? {
+            @let left = self.drawn.left();
+            @if !left.is_empty() {
+                (page::chart(&left, "Residuals of the curves and features.", &format!("Measured less fitted force; of unloading the depth over the deepest. {band}"))?)
+            }
+            @if let Some(left) = self.drawn.imprints_left() {
+                (page::chart(&left, "Residuals of the imprint.", &format!("Measured less fitted height, over the deepest depth. {band}"))?)
+            }
+            (page::chart(&stress, "Stress over plastic strain.", &stress.title)?)
+            @if let (true, Some(svg)) = (self.residual.fits, self.objective_svg()?) {
                 (page::drawing(&svg, "Map of the sum of squares over two unknowns.", "The sum of squares over the two unknowns that are determined worst: along a long valley the measurements do not distinguish."))
             }
             h2 { "Residuals" }
@@ -75,7 +83,7 @@ impl Identification {
             }
         };
         let report = Report {
-            title: "A metal identified",
+            title: if self.residual.fits { "A metal identified" } else { "No metal fits" },
             about: "From measured indentation curves by finite elements",
             verdict: &format!("{}.", self.verdict),
             warnings: &self.notes,
@@ -85,14 +93,23 @@ impl Identification {
         Ok(report.html())
     }
 
+    /// An interval as it is shown: none where no metal fits.
+    fn interval(&self, shown: Markup) -> Markup {
+        if self.residual.fits {
+            shown
+        } else {
+            html! { "–" }
+        }
+    }
+
     /// Stresses of the curve at a few strains, and the one that is determined best.
     fn stresses(&self, numbers: &Numbers) -> Markup {
         let row = |at: String, place: String| {
             let shown = |key: &str| numbers.shown(&format!("{place}/{key}"), 1.0, "");
-            let interval = html! { (shown("low_MPa")) " to " (shown("high_MPa")) };
+            let interval = self.interval(html! { (shown("low_MPa")) " to " (shown("high_MPa")) });
             vec![html! { (at) }, shown("value_MPa"), interval]
         };
-        let percent = |strain: f64| format!("{} %", significant(100.0 * strain));
+        let percent = |strain: f64| format!("{} %", rounded(100.0 * strain, 3));
         let best = self.representative.as_ref();
         let best = best.map(|s| {
             row(format!("{}, determined best", percent(s.plastic_strain)), "/representative".into())
@@ -127,9 +144,9 @@ impl Identification {
             vec![html! { (curve.name) }, error("rms"), error("noise"), number("chi2"), number("chi2_limit")]
         };
         let rows: Vec<_> = self.residual.curves.iter().enumerate().map(row).collect();
-        let caption = "Root mean square of the differences to the fit: of forces as shares, of heights over the depth; the noise that was \
-                       counted with; the sum of squares χ² in standard deviations, errors of the finite elements included, and the largest \
-                       that chance allows.";
-        page::table(caption, &["measurement", "left", "noise", "χ²", "at most"], &rows)
+        let caption = "Root mean square (rms) of measured less fitted: of forces over the force, of heights over the depth; the noise that \
+                       was stated or, where none was, taken from the scatter; χ², the sum of squares in standard deviations of noise and \
+                       finite elements together, and the largest χ² that chance allows.";
+        page::table(caption, &["measurement", "rms residual", "noise", "χ²", "largest χ²"], &rows)
     }
 }

@@ -27,10 +27,32 @@ struct One {
     measured: Vec<[f64; 2]>,
     /// The fit.
     fitted: Vec<[f64; 2]>,
-    /// Depth (of features: their number) and residual, % (of unloading: of the deepest depth).
-    left: Vec<[f64; 2]>,
+    /// Residuals of loading and unloading, of features, or of an imprint.
+    left: Vec<Left>,
     /// Heights of the imprint over the distance from the axis (µm), measured and fitted.
     imprint: [Vec<[f64; 2]>; 2],
+}
+
+/// Residuals that are drawn together.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Left {
+    /// Depth (of features: their number; of an imprint: distance from the axis, µm) and residual, % (of
+    /// unloading and imprint: of the deepest depth).
+    points: Vec<[f64; 2]>,
+    /// Outline of twice their expected standard deviation.
+    band: Vec<[f64; 2]>,
+}
+
+impl Left {
+    /// Residuals at the places `at` with their expected standard `deviations`, both as shares.
+    fn new(at: impl Iterator<Item = f64>, differences: &[f64], deviations: &[f64]) -> Left {
+        let mut rows: Vec<[f64; 3]> =
+            at.zip(differences).zip(deviations).map(|((x, d), s)| [x, 100.0 * d, 200.0 * s]).collect();
+        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let upper = rows.iter().map(|[x, _, s]| [*x, *s]);
+        let lower = rows.iter().rev().map(|[x, _, s]| [*x, -s]);
+        Left { points: rows.iter().map(|[x, d, _]| [*x, *d]).collect(), band: upper.chain(lower).collect() }
+    }
 }
 
 /// The map of the objective.
@@ -71,21 +93,25 @@ impl Drawn {
     /// # Errors
     /// A text for a person where the drawing library fails.
     pub fn curves(&self) -> Result<String, String> {
-        let (width, [upper, lower]) = SIZE;
-        let drawn = self.ones.iter().enumerate();
-        let legend: Vec<(String, Sample)> = drawn
-            .filter(|(_, one)| !(one.measured.is_empty() && one.left.is_empty()))
-            .map(|(i, one)| (one.name.clone(), Sample::Line(rgb(colour(i)), [1, 0])))
-            .collect();
-        let forces = self.forces();
-        let height = lower + if forces.is_some() { upper } else { 0 };
-        let drawn = framed((width, height), &legend, |paper| {
-            let Some(forces) = forces else { return draw(&self.left(), paper).map(|_| ()) };
-            let (top, bottom) = paper.split_vertically(upper * FINE_PIXELS);
-            draw(&forces, &top)?;
-            draw(&self.left(), &bottom).map(|_| ())
-        })?;
-        Ok(titled("Measurements, their fit and its residuals", drawn))
+        let legend = self.names(|one| one.imprint[0].is_empty());
+        stacked("Measurements, their fit and its residuals", legend, self.forces(), &self.left())
+    }
+
+    /// Measured and fitted imprints and their residuals, as SVG; `None` without one.
+    ///
+    /// # Errors
+    /// A text for a person where the drawing library fails.
+    pub fn imprints_svg(&self) -> Result<Option<String>, String> {
+        let (Some(heights), Some(left)) = (self.imprints(), self.imprints_left()) else { return Ok(None) };
+        let mut legend = self.names(|one| !one.imprint[0].is_empty());
+        legend.push(("fit".into(), Sample::Line(INK, [1, 0])));
+        stacked("Imprints, their fit and its residuals", legend, Some(heights), &left).map(Some)
+    }
+
+    /// Names and colours of the measurements that `are_drawn`.
+    fn names(&self, are_drawn: impl Fn(&One) -> bool) -> Vec<(String, Sample)> {
+        let drawn = self.ones.iter().enumerate().filter(|(_, one)| are_drawn(one));
+        drawn.map(|(i, one)| (one.name.clone(), Sample::Line(rgb(colour(i)), [1, 0]))).collect()
     }
 
     /// Measured points and fit; `None` of features alone.
@@ -124,14 +150,30 @@ impl Drawn {
         Some(Chart::new("Distance from the axis r (µm)", "Height z (µm)", lines).titled("The imprint"))
     }
 
-    /// Residuals of the fit.
+    /// Residuals of the curves and features.
     pub fn left(&self) -> Chart {
-        let dots = self.ones.iter().enumerate().filter(|(_, one)| !one.left.is_empty()).map(|(i, one)| {
-            let line = Series::line(one.name.clone(), one.left.clone());
-            Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..line }.marked()
-        });
         let drawn = self.ones.iter().any(|one| !one.measured.is_empty());
-        Chart::new(if drawn { "Depth h (µm)" } else { "Feature" }, "measured less fitted (%)", dots)
+        let over = if drawn { "Depth h (µm)" } else { "Feature" };
+        self.residuals(over, |one| one.imprint[0].is_empty())
+    }
+
+    /// Residuals of the imprints; `None` without one.
+    pub fn imprints_left(&self) -> Option<Chart> {
+        self.ones.iter().find(|one| !one.imprint[0].is_empty())?;
+        Some(self.residuals("Distance from the axis r (µm)", |one| !one.imprint[0].is_empty()))
+    }
+
+    /// Residuals of the measurements that `are_drawn`, each over the band in which they are expected.
+    fn residuals(&self, over: &str, are_drawn: impl Fn(&One) -> bool) -> Chart {
+        let drawn = self.ones.iter().enumerate().filter(|(_, one)| are_drawn(one));
+        let dots = drawn.flat_map(|(i, one)| {
+            one.left.iter().map(move |left| {
+                let line = Series::line(one.name.clone(), left.points.clone());
+                let band = left.band.clone();
+                Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), band, ..line }.marked()
+            })
+        });
+        Chart::new(over, "measured less fitted (%)", dots)
     }
 
     /// The map of the sum of squares over two unknowns, as SVG.
@@ -143,13 +185,40 @@ impl Drawn {
     }
 }
 
+/// Measurements above their residuals, with one legend, as SVG.
+fn stacked(
+    title: &str,
+    mut legend: Vec<(String, Sample)>,
+    upper: Option<Chart>,
+    lower: &Chart,
+) -> Result<String, String> {
+    let (width, [upper_height, lower_height]) = SIZE;
+    legend.push(("pale: where 95 % of them are expected".into(), Sample::Heading));
+    let height = lower_height + if upper.is_some() { upper_height } else { 0 };
+    let drawn = framed((width, height), &legend, |paper| {
+        let Some(upper) = upper else { return draw(lower, paper).map(|_| ()) };
+        let (top, bottom) = paper.split_vertically(upper_height * FINE_PIXELS);
+        draw(&upper, &top)?;
+        draw(lower, &bottom).map(|_| ())
+    })?;
+    Ok(titled(title, drawn))
+}
+
 /// The colour of measurement `i`.
 fn colour(i: usize) -> Colour {
     LINES[i % LINES.len()]
 }
 
+/// Standard deviations that are expected of the differences, noise and finite elements together.
+fn deviations(experiment: &Experiment, unknowns: &Unknowns, point: &[f64]) -> Option<Vec<f64>> {
+    let of_the_model = experiment.model_deviations(unknowns, point)?;
+    let factor = experiment.covariance(unknowns, point)?.factor(of_the_model)?.l();
+    Some(factor.row_iter().map(|row| row.norm()).collect())
+}
+
 fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut usize) -> Option<One> {
     let differences = experiment.differences(unknowns, point, false)?;
+    let deviations = deviations(experiment, unknowns, point)?;
     let shown = |p: &[f64; 2]| [1e6 * p[0], p[1]];
     let name = experiment.label.clone();
     match &experiment.data {
@@ -158,28 +227,41 @@ fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut
             let shown = |p: &[f64; 2]| [1e6 * p[0], 1e6 * p[1]];
             let measured: Vec<[f64; 2]> = imprint.points.iter().map(shown).collect();
             let fitted = measured.iter().zip(fitted).map(|(p, z)| [p[0], 1e6 * z]).collect();
-            Some(One { name, imprint: [measured, fitted], ..One::default() })
+            let left = Left::new(measured.iter().map(|p| p[0]), &differences, &deviations);
+            Some(One { name, left: vec![left], imprint: [measured, fitted], ..One::default() })
         }
         Data::Features { .. } | Data::ImprintNumbers(_) => {
-            let left = differences.iter().map(|d| {
+            let left = differences.iter().zip(&deviations).map(|(d, s)| {
                 *number += 1;
-                [*number as f64, 100.0 * d]
+                Left { points: vec![[*number as f64, 100.0 * d]], band: bar(*number as f64, 200.0 * s) }
             });
             Some(One { name, left: left.collect(), ..One::default() })
         }
         Data::Curve(measured) => {
             let [load, back] = experiment.curve(unknowns, point, measured.peak)?;
-            let both = || measured.loading.iter().chain(&measured.unloading);
-            let left = both().zip(&differences).map(|(p, d)| [1e6 * p[0], 100.0 * d]);
+            let turn = measured.loading.len();
+            let depths = |points: &'_ [[f64; 2]]| points.iter().map(|p| 1e6 * p[0]).collect::<Vec<_>>();
+            let loading = depths(&measured.loading).into_iter();
+            let unloading = depths(&measured.unloading).into_iter();
+            let left = vec![
+                Left::new(loading, &differences[..turn], &deviations[..turn]),
+                Left::new(unloading, &differences[turn..], &deviations[turn..]),
+            ];
             Some(One {
                 name,
-                measured: both().map(shown).collect(),
+                measured: measured.loading.iter().chain(&measured.unloading).map(shown).collect(),
                 fitted: load.iter().chain(&back).map(shown).collect(),
-                left: left.collect(),
+                left,
                 ..One::default()
             })
         }
     }
+}
+
+/// Outline of the band of one number at place `x`.
+fn bar(x: f64, half: f64) -> Vec<[f64; 2]> {
+    let [left, right] = [x - 0.2, x + 0.2];
+    vec![[left, half], [right, half], [right, -half], [left, -half]]
 }
 
 /// The map over the two widest unknowns of the metal around the best fit.
@@ -280,18 +362,23 @@ fn contour(map: &Map, level: f64) -> Vec<Vec<(f64, f64)>> {
     pieces
 }
 
-/// The stress-strain curve with its band.
-pub fn stress_strain(rows: &[StressAt]) -> Chart {
+/// The stress-strain curve with its band; of a metal that does not fit without one.
+pub fn stress_strain(rows: &[StressAt], fits: bool) -> Chart {
+    let axes = ["Plastic strain (%)", "True stress (MPa)"];
     let line = rows.iter().map(|r| [100.0 * r.plastic_strain, r.value_MPa]).collect();
     let upper = rows.iter().map(|r| [100.0 * r.plastic_strain, r.high_MPa]);
     let lower = rows.iter().rev().map(|r| [100.0 * r.plastic_strain, r.low_MPa]);
     let ends =
         |pick: fn(&StressAt) -> f64| rows.iter().map(|r| [100.0 * r.plastic_strain, pick(r)]).collect();
+    if !fits {
+        let nearest = Series::line("nearest metal", line);
+        return Chart::new(axes[0], axes[1], [nearest])
+            .titled("The nearest stress-strain curve; no metal fits");
+    }
     let series = [
         Series { band: upper.chain(lower).collect(), ..Series::line("best fit", line) },
         Series { colour: Some(LINES[5]), ..Series::line("95 % interval", ends(|r| r.high_MPa)) },
         Series { colour: Some(LINES[5]), ..Series::line("95 % interval", ends(|r| r.low_MPa)) },
     ];
-    Chart::new("Plastic strain (%)", "True stress (MPa)", series)
-        .titled("The stress-strain curve that fits, with its 95 % band")
+    Chart::new(axes[0], axes[1], series).titled("The stress-strain curve that fits, with its 95 % band")
 }

@@ -100,6 +100,7 @@ pub(super) fn identify(
     let mut notes = std::mem::take(&mut fit.notes);
     notes.extend(found.notes);
     notes.extend(assumed(&fit));
+    notes.extend(experiments.iter().filter_map(note_on_large_noise));
     notes.extend(notes_on_pyramids(&experiments, &unknowns, &best.point));
     let material = unknowns.material(&best.point).ok_or_else(nowhere)?;
     notes.extend(note_on_rigid_tools(&fit, &unknowns, &material));
@@ -173,6 +174,22 @@ fn note_on_rigid_tools(fit: &Fit, unknowns: &Unknowns, metal: &Material) -> Opti
             "the tool is taken as rigid; if it was diamond, youngs_modulus is {:.0} % larger: give youngs_modulus = \"1141 GPa\" and \
              poissons_ratio = 0.07 in `tool`",
             100.0 * more
+        )
+    })
+}
+
+/// Standard deviation of a force above which a noise that nobody stated is doubted: instruments scatter less.
+const DOUBTED_NOISE: f64 = 0.05;
+
+/// A note on a curve whose noise, unstated, was taken from a scatter about the fit that no instrument has.
+fn note_on_large_noise(experiment: &Experiment) -> Option<String> {
+    let is_large = !experiment.noise_given && experiment.noise > DOUBTED_NOISE;
+    is_large.then(|| {
+        format!(
+            "{}: the forces scatter about the fit by {:.0} %, which counts as noise since none is stated; instruments scatter less, so doubt \
+             the unit, the tool or the law, or state `noise`",
+            experiment.name,
+            100.0 * experiment.noise
         )
     })
 }
@@ -272,7 +289,7 @@ impl Identification {
     /// # Errors
     /// A drawing that fails.
     pub fn stress_strain_svg(&self) -> Result<String, Error> {
-        svg(&pictures::stress_strain(&self.stress_strain)).map_err(Error::Unfinished)
+        svg(&pictures::stress_strain(&self.stress_strain, self.residual.fits)).map_err(Error::Unfinished)
     }
 
     /// `objective.svg`: the map of the sum of squares over two unknowns, the others at their best; none with
@@ -296,8 +313,8 @@ impl Identification {
         }
         sink.text("curve.svg", &self.curve_svg()?)?;
         sink.text("stress_strain.svg", &self.stress_strain_svg()?)?;
-        if let Some(imprints) = self.drawn.imprints() {
-            sink.text("imprint.svg", &svg(&imprints).map_err(Error::Unfinished)?)?;
+        if let Some(imprints) = self.drawn.imprints_svg().map_err(Error::Unfinished)? {
+            sink.text("imprint.svg", &imprints)?;
         }
         if let Some(map) = self.objective_svg()? {
             sink.text("objective.svg", &map)?;

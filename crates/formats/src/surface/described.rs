@@ -51,8 +51,7 @@ impl Described {
     /// # Errors
     /// Values in a unit that is no length; two units of the heights.
     pub fn new(grid: &Grid<'_>, first: &str, request: &Request<'_>) -> Result<Described, ReadError> {
-        let remarks: Vec<Remark> =
-            grid.before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
+        let remarks = Remark::list(grid);
         let mut said = Described { decimal: decimal_of(grid, first, &remarks), ..Described::default() };
         let place = |names: &[&str], unit: Option<f64>| {
             remarks.iter().position(|r| {
@@ -183,7 +182,9 @@ impl Described {
     /// The unit of a title: `Height [nm]`, `z: um`, `Heights in nm`.
     fn take_title(&mut self, before: &[(usize, &str)]) {
         const LONGEST_TITLE: usize = 80;
-        for (_, text) in before.iter().filter(|(_, text)| text.len() < LONGEST_TITLE) {
+        // a spreadsheet fills the line up to the width of the table
+        let bare = before.iter().map(|(_, text)| text.trim_end_matches([',', ';', '\t', ' ']));
+        for text in bare.filter(|text| text.len() < LONGEST_TITLE) {
             let text = text.trim_start_matches(['#', '%', '/', ' ']).replace([':', '='], " ");
             let (name, unit) = folded_name(&text);
             let scale = unit.and_then(|unit| Dimension::Length.scale(&unit));

@@ -1,7 +1,7 @@
 //! Remarks `key: value` among the words before the heights of a text file.
 
 use crate::dimension::Dimension;
-use crate::text::{Decimal, folded_name};
+use crate::text::{Decimal, Grid, folded_name, names_above};
 
 /// A remark `key: value`.
 pub(super) struct Remark {
@@ -37,6 +37,22 @@ pub(super) fn is_pixels(word: &str) -> bool {
 }
 
 impl Remark {
+    /// The remarks of the lines before a table: of each line one, and of names above as many numbers one
+    /// each.
+    pub fn list(grid: &Grid<'_>) -> Vec<Remark> {
+        let bare = |text: &str| text.trim_start_matches(['#', '%', '/', ' ']).to_string();
+        let lines: Vec<&(usize, &str)> = grid.before.iter().filter(|(_, text)| !text.is_empty()).collect();
+        let of_pair = |pair: &[&(usize, &str)]| {
+            let pairs = names_above(&grid.dialect, &bare(pair[0].1), &bare(pair[1].1)).unwrap_or_default();
+            pairs
+                .into_iter()
+                .filter_map(|(name, number)| Remark::new(pair[1].0, &format!("{name}: {number}")))
+                .collect::<Vec<_>>()
+        };
+        let of_lines = lines.iter().filter_map(|(line, text)| Remark::new(*line, text));
+        of_lines.chain(lines.windows(2).flat_map(of_pair)).collect()
+    }
+
     /// The remark in a line, if it is one.
     pub fn new(line: usize, text: &str) -> Option<Remark> {
         let text = text.trim_start_matches(['#', '%', '/', ';', '!', '*', ' ']).replace('"', "");

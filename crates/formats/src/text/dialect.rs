@@ -1,5 +1,6 @@
 //! Cells of a line and numbers in them, as the program that wrote the file parts and writes them.
 
+use super::heading::is_unit;
 use super::{TextError, shortened};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -226,10 +227,7 @@ impl Dialect {
             return Separator::Blanks;
         }
         let has_words_apart = |row: &str| {
-            row.split_whitespace()
-                .filter(|word| word.trim_matches(',').contains(|c: char| c.is_ascii_digit()))
-                .count()
-                > 1
+            row.split_whitespace().filter(|word| looks_like_number(word.trim_matches(','))).count() > 1
         };
         // 0,5 0,3 against 0.5, 0.3
         if any(&|row| has_words_apart(row) && !is_padded(row) && !row.contains('.')) {
@@ -258,6 +256,23 @@ impl Dialect {
             return Some(if value.abs() < MISSING_FROM { value } else { f64::NAN });
         }
         self.number_written_otherwise(cell)
+    }
+
+    /// The number in a cell with the unit behind it, if there is one: `6.25 nm`.
+    pub fn measured<'c>(&self, cell: &'c str) -> Option<(f64, Option<&'c str>)> {
+        if let Some(value) = self.number(cell) {
+            return Some((value, None));
+        }
+        // the 3 of 1e3 N is no unit
+        let ends = cell.char_indices().filter(|(_, c)| c.is_alphabetic() || "%‰µ".contains(*c));
+        let one = |(end, _): (usize, char)| {
+            let (number, unit) = (cell[..end].trim_end(), &cell[end..]);
+            // 66.2m is 0.0662 of something where prefixes stand behind numbers
+            let is_prefix = unit == "m" && cell.len() == number.len() + unit.len();
+            let value = self.number(number).filter(|value| !value.is_nan() && is_unit(unit) && !is_prefix)?;
+            Some((value, Some(unit)))
+        };
+        ends.map(one).find_map(|found| found)
     }
 
     /// Numbers with decimal commas, blanks or commas between thousands, signs of typesetters, the exponents

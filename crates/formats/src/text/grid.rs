@@ -1,6 +1,7 @@
 //! Rows of numbers, as many in each: the heights of a map, or points line by line.
 
 use super::dialect::{Decimal, Dialect, is_comment, is_row, looks_like_number};
+use super::header::header_cells;
 use super::{TextError, shortened};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -144,7 +145,14 @@ fn beginning<'t>(text: &'t str, dialect: &Dialect) -> Result<(Before<'t>, usize,
     for (i, line) in text.split_inclusive('\n').enumerate() {
         let bare = line.trim();
         if !bare.is_empty() && !is_comment(bare) && is_all_numbers(line) {
-            return Ok((before, at, line));
+            let mut later = text[at + line.len()..].lines().filter(|line| !is_comment(line.trim()));
+            let next = later.find(|line| is_all_numbers(line));
+            if !is_below_names(dialect, &before, line, next) {
+                return Ok((before, at, line));
+            }
+            before.push((i + 1, bare));
+            at += line.len();
+            continue;
         }
         // a row with one bad cell is no title
         if !is_comment(bare) && is_row(bare) && dialect.cells(line).all(|c| !c.contains(' ')) {
@@ -155,6 +163,34 @@ fn beginning<'t>(text: &'t str, dialect: &Dialect) -> Result<(Before<'t>, usize,
         at += line.len();
     }
     Err(TextError::whole("holds no rows of numbers"))
+}
+
+/// True of a row that holds the values of the names above it, `nx ny step` above `200 160 1.25`: rows of the
+/// table, of which the `next` is one, are longer.
+fn is_below_names(dialect: &Dialect, before: &Before<'_>, row: &str, next: Option<&str>) -> bool {
+    let Some((_, names)) = before.iter().rev().find(|(_, line)| !line.is_empty()) else { return false };
+    let count = filled_cells(dialect, row);
+    names_above(dialect, names, row).is_some()
+        && next.is_some_and(|next| filled_cells(dialect, next) >= 2 * count)
+}
+
+/// Cells of a line up to the last that is not empty.
+fn filled_cells(dialect: &Dialect, line: &str) -> usize {
+    dialect.cells(line).collect::<Vec<_>>().iter().rposition(|cell| !cell.is_empty()).map_or(0, |i| i + 1)
+}
+
+/// The words of the line `names` with the numbers of the line `row` that stand below them; `None` where they
+/// are not as many.
+pub(crate) fn names_above(dialect: &Dialect, names: &str, row: &str) -> Option<Vec<(String, String)>> {
+    let count = filled_cells(dialect, row);
+    let mut names = header_cells(dialect, names, Some(count));
+    names.truncate(names.iter().rposition(|name| !name.is_empty()).map_or(0, |i| i + 1));
+    let is_name = |name: &String| name.contains(char::is_alphabetic) && !looks_like_number(name);
+    let is_number = |cell: &&str| dialect.number(cell).is_some_and(|value| !value.is_nan());
+    let numbers: Vec<&str> = dialect.cells(row).take(count).collect();
+    let is_pair =
+        count > 0 && names.len() == count && names.iter().all(is_name) && numbers.iter().all(is_number);
+    is_pair.then(|| names.into_iter().zip(numbers.into_iter().map(String::from)).collect())
 }
 
 /// The byte where the rows end that begin at `start`, and the number of lines of words behind them.

@@ -53,7 +53,7 @@ pub(crate) struct Header<'t> {
     pub line: usize,
     /// Its text; empty where columns have numbers only.
     pub text: &'t str,
-    /// The text of the line of units.
+    /// The text of the line of units, or of a row whose cells hold them.
     pub units: Option<&'t str>,
 }
 
@@ -154,7 +154,13 @@ impl<'t> Header<'t> {
         let cells_of = |text: &str| header_cells(dialect, text, Some(filled.len()));
         let cells =
             if self.text.is_empty() { vec![String::new(); filled.len()] } else { cells_of(self.text) };
-        let mut heads = Heading::list(&cells, &self.units.map(cells_of).unwrap_or_default(), filled);
+        // a row of numbers holds the units behind them
+        let unit = |cell: String| match dialect.measured(&cell) {
+            Some((_, unit)) => unit.unwrap_or("").to_string(),
+            None => cell,
+        };
+        let units = self.units.map(|text| cells_of(text).into_iter().map(unit).collect::<Vec<_>>());
+        let mut heads = Heading::list(&cells, &units.unwrap_or_default(), filled);
         self.declare(&mut heads, wanted, declared)?;
         let mut found: Vec<Vec<Pick>> = Vec::new();
         let mut said = Vec::new();

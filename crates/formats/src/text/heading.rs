@@ -201,7 +201,8 @@ impl Heading {
         if has(&["raw", "uncorrected", "unkorrigiert", "roh", "brut"]) {
             return Some(rank + RANK_OF_RAW);
         }
-        let ends = ["into surface", "on sample", "corrected", "korrigiert"];
+        // that of the sample beside that of the drive is asked about
+        let ends = ["into surface", "on sample", "sample displacement", "corrected", "korrigiert"];
         Some(if doubt == 0 && ends.iter().any(|end| self.name.ends_with(end)) { 0 } else { rank })
     }
 

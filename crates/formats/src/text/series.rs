@@ -5,7 +5,6 @@ use super::dialect::{Dialect, Separator, is_comment, is_row};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit};
 use super::{TextError, shortened};
-use crate::dimension::Dimension;
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
@@ -222,7 +221,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let Some(block) = self.block.as_mut() else { return Ok(false) };
         let Some(columns) = &block.columns else { return Ok(false) };
         let cells = header_cells(&self.dialect, text, Some(columns.width));
-        let is_word = |cell: &str| !cell.is_empty() && self.dialect.number(cell).is_none();
+        let is_word = |cell: &str| !cell.is_empty() && self.dialect.measured(cell).is_none();
         let is_words = !is_row(text.trim()) && self.dialect.cells(text).next().is_some_and(is_word);
         let is_summary = cells.first().is_some_and(|cell| SUMMARIES.contains(&folded(cell).as_str()));
         if is_words && (block.has_plain_rows || is_summary) {
@@ -258,18 +257,32 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         self.block = Some(Block { header, columns: None, first, has_plain_rows: false, end: None });
     }
 
+    /// The columns of `header` above its first row of numbers; `None` where `row` holds none.
+    fn columns_above(
+        &self,
+        header: &Header<'_>,
+        text: &str,
+        row: &[&str],
+    ) -> Result<Option<Columns<N>>, TextError> {
+        let measured: Vec<_> = row.iter().map(|cell| self.dialect.measured(cell)).collect();
+        let filled: Vec<bool> = measured.iter().map(|cell| cell.is_some_and(|(v, _)| !v.is_nan())).collect();
+        if !filled.contains(&true) {
+            return Ok(None);
+        }
+        let has_units = measured.iter().flatten().any(|(_, unit)| unit.is_some());
+        let units = header.units.or(Some(text).filter(|_| has_units));
+        let header = Header { units, ..header.clone() };
+        header.columns(&self.dialect, &filled, self.wanted, self.named, &self.declared).map(Some)
+    }
+
     /// Takes a row below the header.
     fn row(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
         let Some(Block { header, columns, first, has_plain_rows, end }) = self.block.take() else {
             return Ok(());
         };
         let row: Vec<&str> = self.dialect.cells(text).collect();
-        let is_number = |cell: &str| self.dialect.number(cell).is_some_and(|v| !v.is_nan());
         let columns = match columns {
-            None if row.iter().any(|cell| is_number(cell)) => {
-                let filled: Vec<bool> = row.iter().map(|cell| is_number(cell)).collect();
-                Some(header.columns(&self.dialect, &filled, self.wanted, self.named, &self.declared)?)
-            }
+            None => self.columns_above(&header, text, &row)?,
             known => known,
         };
         let Some(columns) = columns else {
@@ -321,13 +334,10 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let cells = picks.map(|pick| row.get(pick.column).copied().unwrap_or(""));
         let measured = |v: f64| if Some(v) == self.named.missing { f64::NAN } else { v };
         let number = |i: usize| {
-            // a cell that says percent is that, whatever stands above it
-            match cells[i].strip_suffix('%').filter(|_| self.wanted[i].dimension == Dimension::Ratio) {
-                Some(percent) => {
-                    Some(self.dialect.number(percent.trim())? * 0.01 / picks[i].scale.unwrap_or(1.0))
-                }
-                None => self.dialect.number(cells[i]),
-            }
+            let (value, unit) = self.dialect.measured(cells[i])?;
+            // a cell with a unit is in that, whatever stands above it
+            let own = unit.map(|unit| self.wanted[i].dimension.scale(unit));
+            own.map_or(Some(value), |own| Some(value * own? / picks[i].scale.unwrap_or(1.0)))
         };
         let values: [Option<f64>; N] = std::array::from_fn(|i| number(i).map(measured));
         let count = values.iter().flatten().filter(|v| !v.is_nan()).count();

@@ -378,3 +378,36 @@ fn micrometres_are_known_in_every_spelling() {
     let refused = found("a.txt", &format!("Z unit: mym\n{MAP}")).unwrap_err();
     assert!(refused.contains("\"mym\"") && refused.contains("not known"), "{refused}");
 }
+
+/// As ProfilmOnline exports a map, with point or comma before decimals, and as a spreadsheet saves it again.
+#[test]
+fn sizes_that_stand_below_their_names_are_used() {
+    let rows = "1\t2\t3\t4\t5\t6\n7\t8\t9\t10\t11\t12.5\n3\t1\t2\t1\t0\t2\n";
+    let head = "numCols\tnumRows\tpixelSize (um)\n6\t3\t1.25\n";
+    let text = format!("{head}Z-data (nm)\n{rows}");
+    let padded = format!(
+        "numCols,numRows,pixelSize (um),,,\n6,3,1.25,,,\nZ-data (nm),,,,,\n{}",
+        rows.replace('\t', ",")
+    );
+    let notes = format!("# numCols\tnumRows\tpixelSize (um)\n# 6\t3\t1.25\n# Z-data (nm)\n{rows}");
+    for text in [text.clone(), text.replace('.', ","), padded, notes, text.replace('\t', ";")] {
+        let map = found("a.txt", &text).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!((map.columns, map.rows, map.heights[11]), (6, 3, 12.5), "{text}");
+        assert!(
+            matches!(map.spacing, Spacing::Metres([x, y]) if x == y && (x / 1.25e-6 - 1.0).abs() < 1e-12)
+        );
+        assert_eq!(map.height_unit, Some(1e-9), "{text}");
+    }
+    let wide = "1,2,4\n".replace('\n', &",3".repeat(100)) + "\n";
+    let wide = format!("pixelSize (um){0}\n1.25{0}\nZ-data (nm){0}\n{wide}{wide}{wide}", ",".repeat(102));
+    assert_eq!(found("a.csv", &wide).unwrap().height_unit, Some(1e-9));
+    // without a word between the values and the heights
+    let map = found("a.txt", &format!("{head}{rows}")).unwrap();
+    assert_eq!((map.columns, map.rows, map.height_unit), (6, 3, None));
+    let fault = found("a.txt", &text.replace("6\t3\t", "6\t4\t")).unwrap_err();
+    assert!(fault.contains('4'), "{fault}");
+    // names above rows as long as the others are those of points
+    let points = "x_um\ty_um\tz_nm\n0\t0\t1\n1\t0\t2\n0\t1\t3\n1\t1\t4\n";
+    let map = found("a.txt", points).unwrap();
+    assert_eq!((map.columns, map.rows, map.heights[0]), (2, 2, 1.0));
+}

@@ -141,3 +141,38 @@ fn a_header_repeated_behind_the_sign_of_a_comment_begins_another_test() {
     let table = indentation::read(&format!("{one}// a pause\n300\t18\n"), COLUMNS, None).unwrap();
     assert_eq!((table.series.len(), table.series[0].rows.len()), (1, 3), "{table:?}");
 }
+
+/// Some loggers write the unit behind every number, and not in the header.
+#[test]
+fn a_unit_behind_each_number_is_that_of_the_number() {
+    for text in [
+        "Depth\tLoad\n100 nm\t2 mN\n200 nm\t8 mN\n",
+        "Depth;Load\n100,0nm;2 mN\n200,0nm;8 mN\n",
+        "Time,Depth,Load\n0 s,0.1 µm,2e-3 N\n1 s,2e2 nm,8 mN\n",
+        // what stands with the number goes before what stands above it
+        "Depth (nm),Load (mN)\n0.1 um,2\n0.2 um,8\n",
+    ] {
+        is_the_curve(text, COLUMNS);
+    }
+    for (text, why) in [
+        ("Depth\tLoad\n100 nm\t2\n200 nm\t8\n", "has no unit"),
+        ("Depth\tLoad\n100 nm\t2 mN\n200 s\t8 mN\n", "\"200 s\" is not a number"),
+        ("Depth (m)\tLoad (N)\n0.0001\t2\n0.0002\t66.2m\n", "\"66.2m\" is not a number"),
+        ("Load (N)\tDepth (m)\n2\t0.0001\n8\t66.2m\n", "\"66.2m\" is not a number"),
+    ] {
+        let fault = indentation::read(text, COLUMNS, None).expect_err(text);
+        assert!(fault.message.contains(why), "{text}: {fault}");
+    }
+}
+
+/// As FemtoTools writes the displacement of its drive beside that of the sample.
+#[test]
+fn the_depth_of_the_sample_beside_that_of_the_drive_is_asked_about() {
+    let text = "Displacement [nm]\tForce [mN]\tSample Displacement [nm]\n150\t2\t100\n280\t8\t200\n";
+    let fault = indentation::read(text, COLUMNS, None).unwrap_err();
+    assert!(
+        fault.message.contains("\"Displacement [nm]\" and \"Sample Displacement [nm]\" may all be the depth"),
+        "{fault}"
+    );
+    is_the_curve(text, [Some("Sample Displacement [nm]"), None]);
+}
