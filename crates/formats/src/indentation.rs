@@ -31,6 +31,7 @@ pub const DEPTH: Quantity = Quantity {
         "weg",
         "standardweg",
         "traversenweg",
+        "hub",
         "verschiebung",
         "enfoncement",
         "profondeur",

@@ -329,7 +329,7 @@ mod tests {
             ("strain,yield_stress_MPa\n0,300", Some(1), "plastic strain"),
             ("plastic_strain,yield_stress_MPa\n", Some(1), "without readings"),
             ("plastic_strain,yield_stress_MPa\n0,300\n0,01,310", Some(3), "decimal comma"),
-            ("plastic_strain,yield_stress_MPa\n0,300 MPa", Some(2), "\"300 MPa\" is not a number"),
+            ("plastic_strain,yield_stress_MPa\n0,300 mm", Some(2), "\"300 mm\" is not a number"),
             ("plastic_strain,yield_stress_MPa\n0,300\n0.1,nan", Some(3), "\"nan\" is not a finite number"),
             ("plastic_strain,yield_stress_MPa\n\n0.002,300", Some(3), "must start at 0, not at 0.002"),
             (

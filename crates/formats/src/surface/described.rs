@@ -2,7 +2,7 @@
 
 use super::measured::{ReadError, Request, Spacing};
 use super::names::{
-    COLUMNS, HEIGHT, LENGTH, MISSING, OF_HEIGHTS, OF_LENGTHS, OF_NOTHING, ROWS, UNIT, WEAK, WIDTH,
+    COLUMNS, HEIGHT, LENGTH, MISSING, OF_HEIGHTS, OF_LENGTHS, OF_NOTHING, OPTICS, ROWS, UNIT, WEAK, WIDTH,
 };
 use super::remark::{Remark, has_decimal_comma, number_and_unit};
 use super::sides::{Sides, quoted};
@@ -83,7 +83,12 @@ impl Described {
             said.take_number(remark);
         }
         if said.sides.is_empty() && said.bare.is_empty() {
-            remarks.iter().filter(|r| WEAK.contains(&r.key.as_str())).for_each(|r| said.take_length(r, true));
+            // that of the optics is no pixel
+            let is_weak = |r: &&Remark| {
+                WEAK.contains(&r.key.as_str())
+                    && !OPTICS.iter().any(|word| r.text.to_lowercase().contains(word))
+            };
+            remarks.iter().filter(is_weak).for_each(|r| said.take_length(r, true));
         }
         if let (Some(width), Some(length)) = sides[1]
             && length < width
@@ -183,17 +188,22 @@ impl Described {
     fn take_title(&mut self, before: &[(usize, &str)]) {
         const LONGEST_TITLE: usize = 80;
         // a spreadsheet fills the line up to the width of the table
-        let bare = before.iter().map(|(_, text)| text.trim_end_matches([',', ';', '\t', ' ']));
-        for text in bare.filter(|text| text.len() < LONGEST_TITLE) {
-            let text = text.trim_start_matches(['#', '%', '/', ' ']).replace([':', '='], " ");
+        let bare = before.iter().map(|(line, text)| (line, text.trim_end_matches([',', ';', '\t', ' '])));
+        for (line, bare) in bare.filter(|(_, text)| text.len() < LONGEST_TITLE) {
+            let text = bare.trim_start_matches(['#', '%', '/', ' ']).replace([':', '='], " ");
             let (name, unit) = folded_name(&text);
             let scale = unit.and_then(|unit| Dimension::Length.scale(&unit));
             let mut words = name.split(' ');
             let is_title = words.clone().all(|word| OF_HEIGHTS.contains(&word) || OF_NOTHING.contains(&word))
                 && words.any(|word| OF_HEIGHTS.contains(&word));
-            if let (true, Some(scale)) = (is_title, scale) {
-                self.height_unit = self.height_unit.or(Some(scale));
+            // Height: 1 um is a side, Heights in 0.1 um has a factor
+            let has_number = bare.contains(|c: char| c.is_ascii_digit()) && !bare.contains(['[', '(']);
+            if !is_title || scale.is_none() || has_number && bare.contains([':', '=']) {
+                continue;
             }
+            self.height_unit = self.height_unit.or(scale);
+            let said = (text.trim().to_string(), *line, true);
+            self.scale = self.scale.take().or(Some(said).filter(|_| has_number));
         }
     }
 

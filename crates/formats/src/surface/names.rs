@@ -108,6 +108,8 @@ pub(super) const PIXEL: &[&str] = &[
 ];
 /// Names of what may be the optics' limit as well as the pixel: taken where nothing else tells the pixel.
 pub(super) const WEAK: &[&str] = &["lateral resolution", "resolution laterale", "camera resolution"];
+/// Words that make it that of the optics.
+pub(super) const OPTICS: &[&str] = &["optic", "optisch", "abbe", "rayleigh", "sparrow", "diffraction"];
 pub(super) const X: &[&str] =
     &["x", "dx", "δx", "pixel width", "delta x", "pas x", "xpixelsize", "x increment", "x scale", "scale x"];
 pub(super) const Y: &[&str] = &[

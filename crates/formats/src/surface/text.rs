@@ -145,8 +145,22 @@ fn places_without_unit(axes: &Axes) -> Option<String> {
     ))
 }
 
+/// The names of Tecplot's `VARIABLES = "X [um]", "Y [um]", "Z [nm]"`, a blank between each.
+fn tecplot_names(text: &str) -> Option<String> {
+    let (key, names) = text.split_once('=')?;
+    let names = names.split('"').skip(1).step_by(2).map(|name| name.replace(' ', ""));
+    key.trim().eq_ignore_ascii_case("variables").then(|| names.collect::<Vec<_>>().join(" "))
+}
+
 /// The columns of x, y and z where a header or the request names them.
 fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<3>>, ReadError> {
+    if let Some((line, names)) =
+        grid.before.iter().find_map(|(line, text)| Some((*line, tecplot_names(text)?)))
+    {
+        if let Some(header) = Header::new(&grid.dialect, line, &names, &POINT, named) {
+            return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
+        }
+    }
     let mut units = None;
     let lines = grid.before.iter().rev().filter(|(_, line)| !line.is_empty()).take(2);
     for &(line, text) in lines {
@@ -238,6 +252,14 @@ fn points(
             // numbers of pixels say nothing of their size
             None if counts => {
                 notes.push("x and y without a unit count pixels".into());
+                Spacing::Unknown
+            }
+            // a unit of the heights alone is none of x and y
+            None if picks[2].scale.is_some() || said.height_unit.is_some() && !said.has_one_unit() => {
+                let [x, y] = placed.step;
+                notes.push(format!(
+                    "x and y go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like"
+                ));
                 Spacing::Unknown
             }
             None => Spacing::HeightUnits(placed.step),

@@ -19,8 +19,40 @@ pub(super) fn read(text: &str, request: &Request<'_>) -> Option<Result<Measured,
     } else if first == "DSAA" {
         Some(surfer(text, request))
     } else {
-        None
+        refused(text).map(|(line, problem)| Err(TextError::new(line, problem).into()))
     }
+}
+
+/// Lines among which a format says what it is.
+const LINES_OF_A_HEADER: usize = 40;
+
+/// The line and the reason, with a way out, of formats whose numbers are no table.
+fn refused(text: &str) -> Option<(usize, &'static str)> {
+    const ZEMAX: &str = "looks like a grid sag of Zemax, nx ny dx dy and a point in each line below them: write it as a map of ny \
+                         lines with nx heights, and say pixel_size and height_unit";
+    const CODE_V: &str = "is of an interferogram of CODE V, whose heights are its numbers times WVL/SSZ um, and missing where they \
+                          are NDA: export it as .xyz or .asc, or write them so in a table";
+    const TECPLOT: &str = "is a zone of Tecplot packed by variables: export it packed by points (F=POINT), a point in each line";
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split_whitespace().map(|word| word.parse().unwrap_or(f64::NAN)).collect()
+    };
+    let mut rows = text.lines().map(numbers);
+    if let (Some([x, y, _, _, unit, _, _]), Some([_] | [_, _, _, _])) =
+        (rows.next().as_deref(), rows.next().as_deref())
+        && [x, y].into_iter().all(|count| *count >= 2.0 && count.fract() == 0.0)
+        && [0.0, 1.0, 2.0, 3.0].contains(unit)
+    {
+        return Some((1, ZEMAX));
+    }
+    text.lines().take(LINES_OF_A_HEADER).enumerate().find_map(|(i, line)| {
+        let words: Vec<String> = line.split([' ', ',', '=', '\t']).map(str::to_uppercase).collect();
+        let has = |word: &str| words.iter().any(|w| w == word);
+        if words[0] == "GRD" && has("WVL") {
+            Some((i + 1, CODE_V))
+        } else {
+            (has("BLOCK") && (has("F") || has("DATAPACKING"))).then_some((i + 1, TECPLOT))
+        }
+    })
 }
 
 /// A line without the sign of a comment.

@@ -160,6 +160,7 @@ impl<'t> Header<'t> {
             None => cell,
         };
         let units = self.units.map(|text| cells_of(text).into_iter().map(unit).collect::<Vec<_>>());
+        self.refuse_nameless(&cells, filled, named)?;
         let mut heads = Heading::list(&cells, &units.unwrap_or_default(), filled);
         self.declare(&mut heads, wanted, declared)?;
         let mut found: Vec<Vec<Pick>> = Vec::new();
@@ -211,6 +212,30 @@ impl<'t> Header<'t> {
             test: heads.iter().position(|head| TESTS.contains(&head.name.as_str())),
             said: said.join(", "),
         })
+    }
+
+    /// Refuses one more column of numbers than `cells` have names: programs that number their rows name all
+    /// others, so that each name would stand above its left neighbour.
+    fn refuse_nameless<const N: usize>(
+        &self,
+        cells: &[String],
+        filled: &[bool],
+        named: &Asked<'_, N>,
+    ) -> Result<(), TextError> {
+        let is_number = |name: &Option<&str>| name.is_some_and(|name| column_number(name).is_some());
+        let names = cells.iter().filter(|cell| !cell.is_empty()).count();
+        let is_one_more = filled.len() == names + 1 && cells.len() == names && filled[names];
+        if !is_one_more || named.columns.iter().all(is_number) {
+            return Ok(());
+        }
+        let key = named.key.map_or(String::new(), |key| {
+            format!(", or say the columns by their numbers, as {key} = {{ … = \"2 [um]\" }}")
+        });
+        let message = format!(
+            "has {names} names above {} columns of numbers, of which the first may be the number of the row: give every column a name{key}",
+            filled.len()
+        );
+        Err(TextError::new(self.line, message))
     }
 
     /// Gives `heads` without a unit the one that was declared for them.
@@ -281,7 +306,11 @@ impl<'t> Header<'t> {
         name: &str,
         scale: &dyn Fn(&Heading) -> Option<Option<f64>>,
     ) -> Result<Pick, TextError> {
-        let exact = heads.iter().position(|head| folded(&head.text) == folded(name));
+        // x and X may be two columns
+        let bare = name.split(['[', '(']).next().unwrap_or("").trim();
+        let letter_by_letter = heads.iter().position(|head| [name.trim(), bare].contains(&head.text.as_str()));
+        let exact =
+            letter_by_letter.or_else(|| heads.iter().position(|head| folded(&head.text) == folded(name)));
         let column = exact.or_else(|| heads.iter().position(|head| is_named(head, name)));
         let column = column.or_else(|| column_number(name).map(|n| n - 1).filter(|n| *n < heads.len()));
         let column = column.ok_or_else(|| {

@@ -235,12 +235,12 @@ fn a_number_that_stands_far_off_again_and_again_is_asked_for() {
     assert!(found("a.txt", &map(0.0, 0.2)).is_ok());
 }
 
-/// Code V's grid file wraps its rows: the two counts among the words of its head refuse them.
+/// Files that wrap their rows: the two counts among the words of the head refuse them.
 #[test]
 fn wrapped_rows_are_refused_by_the_counts_in_the_words() {
     let heights: Vec<String> = (0..600).map(|k| format!("{:.2}", rough(k % 30, k / 30))).collect();
     let body: String = heights.chunks(8).map(|row| row.join(" ") + "\n").collect();
     let refused =
-        found("a.int", &format!("FIGURE\nGRD 30 20 SUR WVL 0.6328 SSZ 9999 NDA 32767\n{body}")).unwrap_err();
+        found("a.txt", &format!("FIGURE\nGRD 30 20 SUR SSZ 9999 NDA 32767\n{body}")).unwrap_err();
     assert!(refused.contains("30 and 20"), "{refused}");
 }

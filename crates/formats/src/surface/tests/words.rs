@@ -411,3 +411,49 @@ fn sizes_that_stand_below_their_names_are_used() {
     let map = found("a.txt", points).unwrap();
     assert_eq!((map.columns, map.rows, map.heights[0]), (2, 2, 1.0));
 }
+
+/// Numbers that are no heights by themselves, and a unit that is none of the places: each was read without a word.
+#[test]
+fn places_and_factors_that_are_not_told_are_asked_for() {
+    let rows = "0\t.1\t.2\t.3\n.1\t.3\t.1\t.2\n.2\t.1\t.4\t.1\n";
+    for (name, text, why) in [
+        ("a.txt", format!("Pixel size: 0.5 um\nHeights in 0.1 um\n{rows}"), "to be multiplied"),
+        ("a.txt", format!("Pixel size: 0.5 um\nHöhen in 1/10 µm\n{rows}"), "to be multiplied"),
+        ("a.int", "title\nGRD 3 2 SUR WVL 0.6328 SSZ 10000 NDA -32768\n1 4 -4\n3 2 5\n".into(), "WVL/SSZ"),
+        (
+            "a.dat",
+            "3 2 0.5 0.5 0 0 0\n0 0 0 0\n1 0 0 0\n2 0 0 0\n0 0 0 0\n3 0 0 0\n1 0 0 0\n".into(),
+            "Zemax",
+        ),
+        (
+            "a.dat",
+            "VARIABLES = \"X\", \"Y\", \"Z\"\nZONE I=3, J=2, F=BLOCK\n0 1 2\n0 1 2\n".into(),
+            "F=POINT",
+        ),
+    ] {
+        let fault = found(name, &text).expect_err(&text);
+        assert!(fault.contains(why), "{text}: {fault}");
+    }
+    let optics =
+        found("a.txt", &format!("Lateral resolution (optical): 1.22 um\nHeights in um\n{rows}")).unwrap();
+    assert_eq!((optics.spacing, optics.height_unit), (Spacing::Unknown, Some(1e-6)));
+    let points = "0,0,1\n0.5,0,2\n1,0,3\n0,0.5,4\n0.5,0.5,5\n1,0.5,6\n";
+    let of_z = found("a.csv", &format!("x,y,z_nm\n{points}")).unwrap();
+    assert_eq!((of_z.spacing, of_z.height_unit), (Spacing::Unknown, Some(1e-9)));
+    assert!(of_z.notes.iter().any(|note| note.contains("pixel_size = \"0.5 um\"")), "{:?}", of_z.notes);
+    let none = found("a.csv", &format!("x,y,z\n{points}")).unwrap();
+    assert_eq!((none.spacing, none.height_unit), (Spacing::HeightUnits([0.5; 2]), None));
+    let tecplot = points.replace(',', " ");
+    let head = "TITLE = \"map\"\nVARIABLES = \"X [um]\", \"Y [um]\", \"Z [nm]\"\nZONE I=3, J=2, F=POINT\n";
+    let tecplot = found("a.dat", &format!("{head}{tecplot}")).unwrap();
+    assert_eq!((tecplot.spacing, tecplot.height_unit), (Spacing::Metres([0.5e-6; 2]), Some(1e-9)));
+}
+
+/// Columns that differ by their letters alone, as programs for images of strain write pixels and places.
+#[test]
+fn a_key_names_a_column_letter_by_letter() {
+    let text = "x,y,X,Y,Z\n0,0,0,0,1\n5,0,1,0,2\n10,0,2,0,3\n0,5,0,1,4\n5,5,1,1,5\n10,5,2,1,6\n";
+    let columns = [Some("X [mm]"), Some("Y [mm]"), Some("Z [mm]")];
+    let map = asked("a.csv", text, &Request { columns, ..Request::default() }).unwrap();
+    assert_eq!((map.spacing, map.height_unit), (Spacing::Metres([1e-3; 2]), Some(1e-3)));
+}

@@ -176,3 +176,17 @@ fn the_depth_of_the_sample_beside_that_of_the_drive_is_asked_about() {
     );
     is_the_curve(text, [Some("Sample Displacement [nm]"), None]);
 }
+
+/// As `write.table` of R and `to_string` of pandas number their rows: all names but the first.
+#[test]
+fn one_name_fewer_than_columns_is_asked_about() {
+    for text in [
+        "\"Depth_nm\" \"Load_mN\"\n\"1\" 100 2\n\"2\" 200 8\n",
+        "   Depth_nm  Load_mN\n0  100  2\n1  200  8\n",
+        "Depth_nm\tLoad_mN\n1\t100\t2\n2\t200\t8\n",
+    ] {
+        let fault = indentation::read(text, COLUMNS, None).expect_err(text);
+        assert!(fault.message.contains("2 names above 3 columns"), "{text}: {fault}");
+        is_the_curve(text, [Some("2 [nm]"), Some("3 [mN]")]);
+    }
+}
