@@ -154,12 +154,11 @@ fn tecplot_names(text: &str) -> Option<String> {
 
 /// The columns of x, y and z where a header or the request names them.
 fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<3>>, ReadError> {
-    if let Some((line, names)) =
-        grid.before.iter().find_map(|(line, text)| Some((*line, tecplot_names(text)?)))
+    let of_tecplot = grid.before.iter().find_map(|(line, text)| Some((*line, tecplot_names(text)?)));
+    if let Some((line, names)) = of_tecplot
+        && let Some(header) = Header::new(&grid.dialect, line, &names, &POINT, named)
     {
-        if let Some(header) = Header::new(&grid.dialect, line, &names, &POINT, named) {
-            return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
-        }
+        return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
     }
     let mut units = None;
     let lines = grid.before.iter().rev().filter(|(_, line)| !line.is_empty()).take(2);

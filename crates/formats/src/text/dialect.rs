@@ -264,7 +264,7 @@ impl Dialect {
             return Some((value, None));
         }
         // the 3 of 1e3 N is no unit
-        let ends = cell.char_indices().filter(|(_, c)| c.is_alphabetic() || "%‰µ".contains(*c));
+        let mut ends = cell.char_indices().filter(|(_, c)| c.is_alphabetic() || "%‰µ".contains(*c));
         let one = |(end, _): (usize, char)| {
             let (number, unit) = (cell[..end].trim_end(), &cell[end..]);
             // 66.2m is 0.0662 of something where prefixes stand behind numbers
@@ -272,7 +272,7 @@ impl Dialect {
             let value = self.number(number).filter(|value| !value.is_nan() && is_unit(unit) && !is_prefix)?;
             Some((value, Some(unit)))
         };
-        ends.map(one).find_map(|found| found)
+        ends.find_map(one)
     }
 
     /// Numbers with decimal commas, blanks or commas between thousands, signs of typesetters, the exponents

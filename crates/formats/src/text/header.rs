@@ -308,7 +308,8 @@ impl<'t> Header<'t> {
     ) -> Result<Pick, TextError> {
         // x and X may be two columns
         let bare = name.split(['[', '(']).next().unwrap_or("").trim();
-        let letter_by_letter = heads.iter().position(|head| [name.trim(), bare].contains(&head.text.as_str()));
+        let letter_by_letter =
+            heads.iter().position(|head| [name.trim(), bare].contains(&head.text.as_str()));
         let exact =
             letter_by_letter.or_else(|| heads.iter().position(|head| folded(&head.text) == folded(name)));
         let column = exact.or_else(|| heads.iter().position(|head| is_named(head, name)));

@@ -240,7 +240,6 @@ fn a_number_that_stands_far_off_again_and_again_is_asked_for() {
 fn wrapped_rows_are_refused_by_the_counts_in_the_words() {
     let heights: Vec<String> = (0..600).map(|k| format!("{:.2}", rough(k % 30, k / 30))).collect();
     let body: String = heights.chunks(8).map(|row| row.join(" ") + "\n").collect();
-    let refused =
-        found("a.txt", &format!("FIGURE\nGRD 30 20 SUR SSZ 9999 NDA 32767\n{body}")).unwrap_err();
+    let refused = found("a.txt", &format!("FIGURE\nGRD 30 20 SUR SSZ 9999 NDA 32767\n{body}")).unwrap_err();
     assert!(refused.contains("30 and 20"), "{refused}");
 }

@@ -412,7 +412,7 @@ fn sizes_that_stand_below_their_names_are_used() {
     assert_eq!((map.columns, map.rows, map.heights[0]), (2, 2, 1.0));
 }
 
-/// Numbers that are no heights by themselves, and a unit that is none of the places: each was read without a word.
+/// Numbers that are no heights by themselves, and a unit that is none of the places.
 #[test]
 fn places_and_factors_that_are_not_told_are_asked_for() {
     let rows = "0\t.1\t.2\t.3\n.1\t.3\t.1\t.2\n.2\t.1\t.4\t.1\n";
