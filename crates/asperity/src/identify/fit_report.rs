@@ -65,18 +65,7 @@ impl Identification {
             }
             h2 { "Residuals" }
             (self.residuals(&numbers))
-            p {
-                "All together: χ² " (numbers.shown("/residual/chi2", 1.0, "")) " of at most "
-                (numbers.shown("/residual/chi2_limit", 1.0, "")) ", with " (self.residual.degrees_of_freedom)
-                " degrees of freedom; " (self.runs) " runs of finite elements, " (significant(self.wall_s)) " s."
-            }
-            @for (i, accord) in self.residual.accords.iter().enumerate() {
-                p {
-                    "One metal for " (accord.measurement) " and the other measurements: χ² grows by "
-                    (numbers.shown(&format!("/residual/accords/{i}/growth"), 1.0, "")) " of at most "
-                    (numbers.shown(&format!("/residual/accords/{i}/growth_limit"), 1.0, "")) "."
-                }
-            }
+            (self.sums(&numbers))
             @if !self.understood.is_empty() {
                 h2 { "Files as they were read" }
                 ul { @for line in &self.understood { li { (line) } } }
@@ -120,6 +109,24 @@ impl Identification {
         let told = told.map(|(i, s)| row(percent(s.plastic_strain), format!("/stress_strain/{i}")));
         let rows: Vec<_> = best.into_iter().chain(told).collect();
         page::table("Yield stress, MPa", &["plastic strain", "stress", "95 % interval"], &rows)
+    }
+
+    /// Sums of squares of all measurements, and what one metal for all of them adds.
+    fn sums(&self, numbers: &Numbers) -> Markup {
+        html! {
+            p {
+                "All together: χ² " (numbers.shown("/residual/chi2", 1.0, "")) " of at most "
+                (numbers.shown("/residual/chi2_limit", 1.0, "")) ", with " (self.residual.degrees_of_freedom)
+                " degrees of freedom; " (self.runs) " runs of finite elements, " (significant(self.wall_s)) " s."
+            }
+            @for (i, accord) in self.residual.accords.iter().enumerate() {
+                p {
+                    "One metal for " (accord.measurement) " and the other measurements: χ² grows by "
+                    (numbers.shown(&format!("/residual/accords/{i}/growth"), 1.0, "")) " of at most "
+                    (numbers.shown(&format!("/residual/accords/{i}/growth_limit"), 1.0, "")) "."
+                }
+            }
+        }
     }
 
     /// Widening of the intervals without each of several measurements.
