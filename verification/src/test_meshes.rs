@@ -85,11 +85,7 @@ pub fn quarter_ring(kind: ElementKind, counts: [usize; 2], inner: f64, outer: f6
 /// fine beyond to r = 1.5; from there outward, and from the surface downward, elements grow by a constant
 /// factor.
 pub fn punch_block(kind: ElementKind, across: usize, size: f64) -> Mesh {
-    graded_block(kind, across, across + across / 2, size)
-}
-
-/// The block of [`punch_block`] with `fine` equal elements from the axis on.
-pub fn graded_block(kind: ElementKind, across: usize, fine: usize, size: f64) -> Mesh {
+    let fine = across + across / 2;
     let h = 1.0 / across as f64;
     let mut r: Vec<f64> = (0..=fine).map(|i| i as f64 * h).collect();
     grow(&mut r, h, 1.3, size);
