@@ -106,6 +106,24 @@ pub(super) const PIXEL: &[&str] = &[
     "pixel distance",
     "pixel distance in",
 ];
+/// Those of them that are distances along a line where another line tells how far lines are apart.
+pub(super) const ALONG_A_LINE: &[&str] = &[
+    "punktabstand",
+    "point spacing",
+    "point distance",
+    "spacing",
+    "sampling",
+    "sampling interval",
+    "sampling distance",
+    "sampling step",
+    "step",
+    "step size",
+    "pitch",
+    "pas",
+    "passo",
+    "schrittweite",
+    "increment",
+];
 /// Names of what may be the optics' limit as well as the pixel: taken where nothing else tells the pixel.
 pub(super) const WEAK: &[&str] = &["lateral resolution", "resolution laterale", "camera resolution"];
 /// Words that make it that of the optics.

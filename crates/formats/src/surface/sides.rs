@@ -1,6 +1,6 @@
 //! Sides of a map and of its pixels, as the words before the heights claim them.
 
-use super::names::{HEIGHT, LENGTH, PIXEL, SIZE, WEAK, WIDTH, X, Y};
+use super::names::{ALONG_A_LINE, HEIGHT, LENGTH, PIXEL, SIZE, WEAK, WIDTH, X, Y};
 use super::remark::Remark;
 use crate::text::shortened;
 
@@ -24,6 +24,8 @@ struct Claim {
     axis: usize,
     /// True of the step, false of the whole side.
     is_step: bool,
+    /// True where it is the step across lines only if no line tells that.
+    is_else: bool,
     length: f64,
     said: String,
 }
@@ -67,9 +69,10 @@ impl Sides {
     pub fn take(&mut self, remark: &Remark, lengths: &[f64], has_length: bool, is_weak: bool) {
         let key = remark.key.as_str();
         let Some(&first) = lengths.first() else { return };
+        let is_else = |axis| axis == 1 && lengths.len() == 1 && ALONG_A_LINE.contains(&key);
         let mut set = |axis, is_step, length| {
             let said = quoted(remark);
-            self.claims.push(Claim { axis, is_step, length, said });
+            self.claims.push(Claim { axis, is_step, is_else: is_else(axis), length, said });
         };
         let is_pixel = PIXEL.contains(&key) && !is_weak || WEAK.contains(&key) && is_weak;
         match (is_pixel, lengths) {
@@ -99,8 +102,9 @@ impl Sides {
 
     /// Takes sides that stand in known lines.
     pub fn set_size(&mut self, size: [f64; 2], said: &str) {
-        self.claims =
-            [0, 1].map(|axis| Claim { axis, is_step: false, length: size[axis], said: said.into() }).into();
+        self.claims = [0, 1]
+            .map(|axis| Claim { axis, is_step: false, is_else: false, length: size[axis], said: said.into() })
+            .into();
     }
 
     /// True of the name of the side across the width: the length, where width and length are named, and then
@@ -155,7 +159,9 @@ impl Sides {
 
     /// The step along one axis: as a line names it, else the side over the number of points.
     fn step(&self, axis: usize, count: usize, is_uncertain: bool) -> Result<Option<f64>, String> {
-        let of_axis = || self.claims.iter().filter(|claim| claim.axis == axis);
+        let any = || self.claims.iter().filter(|claim| claim.axis == axis);
+        let is_told = any().any(|claim| claim.is_step && !claim.is_else);
+        let of_axis = || any().filter(|claim| !(is_told && claim.is_else));
         let Some(best) = of_axis().find(|claim| claim.is_step).or_else(|| of_axis().next()) else {
             return Ok(None);
         };

@@ -402,7 +402,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
                 }
             }
         }
-        most.into_iter().map(|(_, cell)| cell.to_string()).collect()
+        most.into_iter().filter(|(_, cell)| !cell.is_empty()).map(|(_, cell)| cell.to_string()).collect()
     }
 
     /// The reason why there are no readings.

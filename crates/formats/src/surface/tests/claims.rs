@@ -32,6 +32,7 @@ fn sides_are_taken_where_the_words_are_certain() {
         ("Lateral resolution: 0.4 um\nPixel size: 0.2 um\n", [0.2, 0.2]),
         ("Lateral resolution: 0.4 um\nX size: 8 um\nY size: 3 um\n", [2.0, 1.0]),
         ("dx = 2 um\nLine distance = 10 um\n", [2.0, 10.0]),
+        ("Sampling interval: 2 um\nProfile spacing: 10 um\n", [2.0, 10.0]),
         ("Width: 8 um\nDepth: 3 um\nHeight: 5 um\n", [2.0, 1.0]),
         ("# a: b\n# c: 8 um\n# d: 6 um\n# e: nm\n", [2.0, 2.0]),
     ] {
@@ -50,7 +51,6 @@ fn sides_that_are_not_certain_are_asked_for() {
         ("X range (um)\t10\t74\n", "several numbers"),
         ("Pitch: 0.08 um\nXY calibration: 2 um\n", "do not agree"),
         ("Pixel size: 2 um\nWidth: 100 um\nHeight: 75 um\n", "do not agree"),
-        ("Sampling interval: 2 um\nProfile spacing: 10 um\n", "do not agree"),
         ("dx: -2 um\ndy: 1 um\n", "one side alone"),
         ("Width: 64 um\n", "one side alone"),
         ("Length: 64 um\nWidth: 24 um\n", "before the width"),

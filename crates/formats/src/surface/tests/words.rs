@@ -449,6 +449,19 @@ fn places_and_factors_that_are_not_told_are_asked_for() {
     assert_eq!((tecplot.spacing, tecplot.height_unit), (Spacing::Metres([0.5e-6; 2]), Some(1e-9)));
 }
 
+/// As stylus instruments write the distance of points along a line and that of lines.
+#[test]
+fn points_and_lines_have_distances_of_their_own() {
+    for words in ["Punktabstand: 1,0 um\nProfilabstand: 0,5 um", "Point spacing: 1 um\nLine spacing: 0.5 um"]
+    {
+        is_of(&found("a.txt", &format!("{words}\nEinheit Z: nm\n{MAP}")).unwrap(), [1e-6, 0.5e-6], 1e-9);
+    }
+    let alone = found("a.txt", &format!("Punktabstand: 1,0 um\nEinheit Z: nm\n{MAP}")).unwrap();
+    is_of(&alone, [1e-6; 2], 1e-9);
+    let both = found("a.txt", &format!("Pixel size: 1 um\nLine spacing: 0.5 um\nZ unit: nm\n{MAP}")).unwrap();
+    assert_eq!(both.spacing, Spacing::Unknown);
+}
+
 /// Columns that differ by their letters alone, as programs for images of strain write pixels and places.
 #[test]
 fn a_key_names_a_column_letter_by_letter() {
