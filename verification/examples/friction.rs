@@ -121,25 +121,33 @@ fn punches(report: &mut Report) -> Done {
     Ok(())
 }
 
-/// The strip that sticks, over its elements, on a body so stiff that it flows at a thousandth of the half
-/// width.
+/// The strip over its elements, on a body so stiff that it flows at a thousandth of the half width.
 fn fine_strip(report: &mut Report) -> Done {
-    report.table("| elements under half the face | mean pressure / k | above 2 + π, % | stated error, % |");
+    report.table(
+        "| friction | elements under half the face | mean pressure over the face / k | above 2 + π, % | over what touches / k | above 2 + π, % | stated error of the force, of the width, % |",
+    );
     let half: f64 = 20e-6;
-    for across in [20, 40, 80] {
-        let tool = Tool::punch(Length(half), Length(0.1e-6));
-        let mut scene = rigid_plastic(Symmetry::PlaneStrain, 10.0 * STIFF[0], 0.3, tool, 1e-3 * half);
-        scene.numerics.elements_in_contact = Some(across);
-        let outcome = crush(&with_friction(scene, Some(Friction::Sticking)))?;
-        if let Some(stopped) = outcome.stopped {
-            return Err(format!("the strip stopped: {}", stopped.reason).into());
+    let over = |pressure: f64| 100.0 * (pressure / (2.0 + PI) - 1.0);
+    for (word, friction) in [FRICTIONS[0], FRICTIONS[5]] {
+        for across in [20, 40, 80] {
+            let tool = Tool::punch(Length(half), Length(0.1e-6));
+            let mut scene = rigid_plastic(Symmetry::PlaneStrain, 10.0 * STIFF[0], 0.3, tool, 1e-3 * half);
+            scene.numerics.elements_in_contact = Some(across);
+            let outcome = crush(&with_friction(scene, friction))?;
+            if let Some(stopped) = outcome.stopped {
+                return Err(format!("the strip stopped: {}", stopped.reason).into());
+            }
+            let summary = outcome.summary;
+            let [face, touching] = [2.0 * half, summary.contact_area]
+                .map(|width| summary.peak_force / width * 3_f64.sqrt() / STRENGTH);
+            report.line(&format!(
+                "| {word} | {across} | {face:.3} | {:+.1} | {touching:.3} | {:+.1} | {:.1}, {:.1} |",
+                over(face),
+                over(touching),
+                100.0 * summary.errors.force,
+                100.0 * summary.errors.contact_area
+            ));
         }
-        let pressure = outcome.summary.peak_force / (2.0 * half) * 3_f64.sqrt() / STRENGTH;
-        report.line(&format!(
-            "| {across} | {pressure:.3} | {:+.1} | {:.1} |",
-            100.0 * (pressure / (2.0 + PI) - 1.0),
-            100.0 * outcome.summary.errors.force
-        ));
     }
     Ok(())
 }
