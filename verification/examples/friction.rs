@@ -5,6 +5,7 @@
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::run::{Outcome, Run};
+use asperity_simulation::record::rows::Summary;
 use asperity_simulation::scene::{Accuracy, Asperity, Friction, Loading, Material, Scene, Symmetry, Tool};
 use asperity_simulation::simulate::simulate;
 use asperity_solver::body::analysis::Analyses;
@@ -89,6 +90,20 @@ fn sticking_parts(report: &mut Report) -> Done {
     Ok(())
 }
 
+/// The summary of a punch that reaches its depth.
+fn pressed(scene: &Scene) -> Result<Summary, Box<dyn Error>> {
+    let outcome = crush(scene)?;
+    match outcome.stopped {
+        Some(stopped) => Err(format!("a punch stopped: {}", stopped.reason).into()),
+        None => Ok(outcome.summary),
+    }
+}
+
+/// A pressure over the shear yield stress k of the metal under punches, by von Mises.
+fn over_shear_yield(pressure: f64) -> f64 {
+    pressure * 3_f64.sqrt() / STRENGTH
+}
+
 /// Metal that does not harden under flat punches: force over the area of the face and over the shear yield
 /// stress k, at a depth where all of it flows and the surface has hardly moved.
 fn punches(report: &mut Report) -> Done {
@@ -109,11 +124,7 @@ fn punches(report: &mut Report) -> Done {
             let tool = Tool::punch(Length(radius), Length(0.1e-6));
             let mut scene = rigid_plastic(symmetry, STIFF[0], 0.3, tool, 0.15e-6);
             scene.numerics.elements_in_contact = Some(40);
-            let outcome = crush(&with_friction(scene, friction))?;
-            if let Some(stopped) = outcome.stopped {
-                return Err(format!("the {name} stopped: {}", stopped.reason).into());
-            }
-            let pressure = outcome.summary.peak_force / face * 3_f64.sqrt() / STRENGTH;
+            let pressure = over_shear_yield(pressed(&with_friction(scene, friction))?.peak_force / face);
             let over = pressure / *smooth.get_or_insert(pressure);
             report.line(&format!("| {name} | {word} | {pressure:.3} | {over:.3} | {theory} |"));
         }
@@ -133,13 +144,9 @@ fn fine_strip(report: &mut Report) -> Done {
             let tool = Tool::punch(Length(half), Length(0.1e-6));
             let mut scene = rigid_plastic(Symmetry::PlaneStrain, 10.0 * STIFF[0], 0.3, tool, 1e-3 * half);
             scene.numerics.elements_in_contact = Some(across);
-            let outcome = crush(&with_friction(scene, friction))?;
-            if let Some(stopped) = outcome.stopped {
-                return Err(format!("the strip stopped: {}", stopped.reason).into());
-            }
-            let summary = outcome.summary;
-            let [face, touching] = [2.0 * half, summary.contact_area]
-                .map(|width| summary.peak_force / width * 3_f64.sqrt() / STRENGTH);
+            let summary = pressed(&with_friction(scene, friction))?;
+            let [face, touching] =
+                [2.0 * half, summary.contact_area].map(|width| over_shear_yield(summary.peak_force / width));
             report.line(&format!(
                 "| {word} | {across} | {face:.3} | {:+.1} | {touching:.3} | {:+.1} | {:.1}, {:.1} |",
                 over(face),

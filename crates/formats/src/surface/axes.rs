@@ -3,7 +3,7 @@
 use super::even::{Step, slope};
 use super::measured::ReadError;
 use crate::dimension::Dimension;
-use crate::text::{Grid, TextError, folded_name, header_cells};
+use crate::text::{Grid, TextError, folded_name, header_cells, uncommented};
 
 /// Rows from which even numbers beside others that are not are places, whatever stands in the corner.
 const ROWS_OF_PLACES: usize = 8;
@@ -30,6 +30,13 @@ pub(super) struct Axes {
     pub said: String,
     /// The reason why the steps are not certain.
     pub doubt: Option<String>,
+}
+
+impl Axes {
+    /// Lengths of both steps, in the unit of the places.
+    pub fn lengths(&self) -> Option<[f64; 2]> {
+        Some([self.steps[0]?.length, self.steps[1]?.length])
+    }
 }
 
 /// A row of places among the words above the heights.
@@ -148,7 +155,7 @@ impl Above {
 /// The row of places that stands with a word in its corner, and so among the words above the numbers.
 fn row_above(grid: &Grid<'_>) -> Option<Above> {
     let &(line, text) = grid.before.iter().rev().find(|(_, line)| !line.is_empty())?;
-    let text = text.trim_start_matches(['#', '%', ' ']);
+    let text = uncommented(text);
     let cells = header_cells(&grid.dialect, text, Some(grid.columns));
     let corner = cells.first().filter(|_| cells.len() == grid.columns)?;
     if grid.dialect.number(corner).is_some_and(|v| !v.is_nan()) {

@@ -7,7 +7,7 @@ use super::names::{
 use super::remark::{Remark, has_decimal_comma, number_and_unit};
 use super::sides::{Sides, quoted};
 use crate::dimension::Dimension;
-use crate::text::{Decimal, Grid, TextError, folded_name};
+use crate::text::{Decimal, Grid, TextError, folded_name, uncommented};
 
 /// Statements of the file on its heights, lengths in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,8 +24,8 @@ pub(super) struct Described {
     units: [Option<f64>; 2],
     /// True where the unit of heights is said to be theirs.
     is_of_heights: bool,
-    /// True where a unit is named of nothing in particular.
-    is_of_all: bool,
+    /// True where the file names a unit, and not of its heights alone.
+    pub has_one_unit: bool,
     /// The mark before decimals, where anything tells it.
     decimal: Option<Decimal>,
     /// Whole numbers of the words, with their lines.
@@ -139,7 +139,7 @@ impl Described {
             };
             return Err(TextError::new(remark.line, problem).into());
         }
-        self.is_of_all |= !is_of_heights && scale.is_some();
+        self.has_one_unit |= !is_of_heights && scale.is_some();
         match (self.height_unit, scale) {
             (Some(known), Some(other)) if is_of_heights && self.is_of_heights && known != other => {
                 let problem = format!(
@@ -154,11 +154,6 @@ impl Described {
         Ok(())
     }
 
-    /// True where the file names a unit, and not of its heights alone.
-    pub fn has_one_unit(&self) -> bool {
-        self.is_of_all
-    }
-
     /// The units of a list of names: `X [µm], Y [µm], Z [nm]` or `x/y in mm; z in nm`.
     /// Names above as many columns are those of points.
     fn take_list(&mut self, grid: &Grid<'_>) {
@@ -166,7 +161,7 @@ impl Described {
             if grid.dialect.cells(text).count() == grid.columns {
                 continue;
             }
-            let text = text.trim_start_matches(['#', '%', '/', ' ']);
+            let text = uncommented(text);
             let one = |piece: &str| {
                 let bracketed = || piece.split_once(['[', '(']);
                 let (name, unit) = piece.split_once(" in ").or_else(bracketed)?;
@@ -190,7 +185,7 @@ impl Described {
         // a spreadsheet fills the line up to the width of the table
         let bare = before.iter().map(|(line, text)| (line, text.trim_end_matches([',', ';', '\t', ' '])));
         for (line, bare) in bare.filter(|(_, text)| text.len() < LONGEST_TITLE) {
-            let text = bare.trim_start_matches(['#', '%', '/', ' ']).replace([':', '='], " ");
+            let text = uncommented(bare).replace([':', '='], " ");
             let (name, unit) = folded_name(&text);
             let scale = unit.and_then(|unit| Dimension::Length.scale(&unit));
             let mut words = name.split(' ');

@@ -7,8 +7,10 @@ pub(super) const LOOKED_AT: u64 = 1024;
 
 const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p or text";
 
+const GREY: &str = "a picture of grey levels (.pgm, .pfm)";
+
 /// Beginning, name, and what to do.
-const KINDS: [(&[u8], &str, &str); 19] = [
+const KINDS: [(&[u8], &str, &str); 24] = [
     (b"\x89PNG", "a PNG picture", PICTURE),
     (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
     (b"GIF8", "a GIF picture", PICTURE),
@@ -50,6 +52,15 @@ const KINDS: [(&[u8], &str, &str); 19] = [
         "export it as .sur, .x3p or text in TrueMap (Gwyddion opens it, too)",
     ),
     (b"DSBB", "a binary grid of Surfer (.grd)", "save it as a text grid (DSAA) or as XYZ in Surfer"),
+    (
+        b"# vtk DataFile",
+        "a legacy file of VTK (.vtk)",
+        "save its heights as image data (.vti, in ParaView), as text x y z, or by np.save(\"map.npy\", heights)",
+    ),
+    (b"P2\n", GREY, PICTURE),
+    (b"P5\n", GREY, PICTURE),
+    (b"PF\n", GREY, PICTURE),
+    (b"Pf\n", GREY, PICTURE),
     (b"Rar!", "a RAR archive", "unpack it and give the file of the surface itself"),
     (b"7z\xbc\xaf", "a 7z archive", "unpack it and give the file of the surface itself"),
     (b"\x1f\x8b", "a gzip archive", "unpack it and give the file of the surface itself"),

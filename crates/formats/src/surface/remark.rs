@@ -1,7 +1,7 @@
 //! Remarks `key: value` among the words before the heights of a text file.
 
 use crate::dimension::Dimension;
-use crate::text::{Decimal, Grid, folded_name, names_above};
+use crate::text::{Decimal, Grid, folded_name, names_above, uncommented};
 
 /// A remark `key: value`.
 pub(super) struct Remark {
@@ -40,7 +40,7 @@ impl Remark {
     /// The remarks of the lines before a table: of each line one, and of names above as many numbers one
     /// each.
     pub fn list(grid: &Grid<'_>) -> Vec<Remark> {
-        let bare = |text: &str| text.trim_start_matches(['#', '%', '/', ' ']).to_string();
+        let bare = |text: &str| uncommented(text).to_string();
         let lines: Vec<&(usize, &str)> = grid.before.iter().filter(|(_, text)| !text.is_empty()).collect();
         let of_pair = |pair: &[&(usize, &str)]| {
             let pairs = names_above(&grid.dialect, &bare(pair[0].1), &bare(pair[1].1)).unwrap_or_default();

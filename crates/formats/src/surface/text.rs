@@ -11,7 +11,7 @@ use super::titled;
 use crate::dimension::Dimension;
 use crate::text::{
     Asked, Columns, Grid, Header, Quantity, Separator, Tables, TextError, decode, folded_name, header_cells,
-    read_grid, shortened,
+    read_grid, shortened, uncommented,
 };
 use std::path::Path;
 
@@ -121,28 +121,28 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     notes.extend(doubt);
     let spacing_error = if spacing.is_some() { 0.0 } else { axes.error() };
     let spacing = spacing.or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
-    let doubt = axes.doubt.clone().or_else(|| places_without_unit(&axes));
-    notes.extend(doubt.filter(|_| spacing == Spacing::Unknown));
+    if spacing == Spacing::Unknown {
+        let lengths = axes.lengths();
+        let without_unit = || Some(places_without_unit("the places beside the map", lengths?));
+        notes.extend(axes.doubt.or_else(without_unit));
+    }
     let height_unit = said.height_unit.or(axes.height_unit);
     Ok(Measured { columns, rows, heights: grid.values, spacing, spacing_error, height_unit, notes })
 }
 
 /// Distance of the points by the places beside them.
 fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
-    let (x, y) = (axes.steps[0]?.length, axes.steps[1]?.length);
+    let [x, y] = axes.lengths()?;
     match axes.lateral_unit.or(said.lateral_unit) {
         Some(unit) => Some(Spacing::Metres([x * unit, y * unit])),
         // a unit of everything is theirs, too; one of the heights is not
-        None => (axes.doubt.is_none() && said.has_one_unit()).then_some(Spacing::HeightUnits([x, y])),
+        None => (axes.doubt.is_none() && said.has_one_unit).then_some(Spacing::HeightUnits([x, y])),
     }
 }
 
-/// A remark on places beside the map whose unit nothing tells.
-fn places_without_unit(axes: &Axes) -> Option<String> {
-    let (x, y) = (axes.steps[0]?.length, axes.steps[1]?.length);
-    Some(format!(
-        "the places beside the map go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like"
-    ))
+/// A remark on places, called `what`, whose unit nothing tells.
+fn places_without_unit(what: &str, [x, y]: [f64; 2]) -> String {
+    format!("{what} go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like")
 }
 
 /// The names of Tecplot's `VARIABLES = "X [um]", "Y [um]", "Z [nm]"`, a blank between each.
@@ -163,7 +163,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
     let mut units = None;
     let lines = grid.before.iter().rev().filter(|(_, line)| !line.is_empty()).take(2);
     for &(line, text) in lines {
-        let text = text.trim_start_matches(['#', '%', '/', ' ']);
+        let text = uncommented(text);
         if let Some(header) = Header::new(&grid.dialect, line, text, &POINT, named) {
             let header = Header { units, ..header };
             return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
@@ -185,7 +185,7 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     let Some(&(line, text)) = grid.before.iter().rev().find(|(_, line)| !line.is_empty()) else {
         return Ok(None);
     };
-    let text = text.trim_start_matches(['#', '%', '/', ' ']);
+    let text = uncommented(text);
     let cells = header_cells(&grid.dialect, text, Some(grid.columns));
     let is_x = |cell: &String| POINT[0].called.contains(&folded_name(cell).0.as_str());
     // three words of a title are no names
@@ -254,11 +254,8 @@ fn points(
                 Spacing::Unknown
             }
             // a unit of the heights alone is none of x and y
-            None if picks[2].scale.is_some() || said.height_unit.is_some() && !said.has_one_unit() => {
-                let [x, y] = placed.step;
-                notes.push(format!(
-                    "x and y go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like"
-                ));
+            None if picks[2].scale.is_some() || said.height_unit.is_some() && !said.has_one_unit => {
+                notes.push(places_without_unit("x and y", placed.step));
                 Spacing::Unknown
             }
             None => Spacing::HeightUnits(placed.step),

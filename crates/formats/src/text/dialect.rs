@@ -68,6 +68,11 @@ pub(super) fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%']) && !is_missing_word(first_word(line)) || line.starts_with("//")
 }
 
+/// The words of a line that may be a note.
+pub(crate) fn uncommented(line: &str) -> &str {
+    line.trim_start_matches(['#', '%', '/', ' '])
+}
+
 fn first_word(line: &str) -> &str {
     line.split(['\t', ';', ',', ' ']).next().unwrap_or("")
 }

@@ -18,6 +18,7 @@ pub use header::Asked;
 pub use heading::Quantity;
 pub use series::{Series, SeriesTable, header_line, read_series};
 
+pub(crate) use dialect::uncommented;
 pub(crate) use grid::names_above;
 pub(crate) use header::{Columns, Header, header_cells};
 pub(crate) use heading::folded_name;

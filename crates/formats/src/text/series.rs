@@ -1,7 +1,7 @@
 //! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
 
 use super::declared_unit::{DeclaredUnit, speaks_of_units};
-use super::dialect::{Dialect, Separator, is_comment, is_row};
+use super::dialect::{Dialect, Separator, is_comment, is_row, uncommented};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit};
 use super::{TextError, shortened};
@@ -52,6 +52,9 @@ const SUMMARIES: [&str; 14] = [
     "moyenne",
 ];
 
+/// Words of a factor of a column.
+const FACTORS: [&str; 6] = ["factor", "faktor", "facteur", "fattore", "multiplier", "scaling"];
+
 /// A header with the rows below it.
 struct Block<'t, const N: usize> {
     header: Header<'t>,
@@ -90,6 +93,18 @@ struct Reader<'q, 't, const N: usize> {
     scales: [f64; N],
     names: [String; N],
     have_units: [bool; N],
+    /// The first line above the rows that names a factor.
+    factor: Option<(usize, &'t str)>,
+}
+
+/// True of a line like `Load factor: 0.5`. Nothing tells whether the numbers below hold the factor already.
+fn names_factor(line: &str) -> bool {
+    let Some((key, value)) = line.split_once([':', '=', '\t', ';']) else { return false };
+    let number = value.split_whitespace().next().map(|word| word.replace(',', "."));
+    let is_other_than_one = number.and_then(|word| word.parse::<f64>().ok()).is_some_and(|v| v != 1.0);
+    // one word of German: Kraftfaktor
+    let is_factor = |word: &str| FACTORS.iter().any(|factor| word.ends_with(factor));
+    is_other_than_one && folded(key).split(' ').any(is_factor)
 }
 
 /// Reads the columns `wanted` of `text`.
@@ -117,6 +132,7 @@ pub fn read_series<const N: usize>(
         scales: [1.0; N],
         names: std::array::from_fn(|_| String::new()),
         have_units: [false; N],
+        factor: None,
     };
     for (i, line) in text.lines().enumerate() {
         reader.take(i + 1, line)?;
@@ -129,7 +145,7 @@ pub fn header_line<const N: usize>(text: &str, wanted: &[Quantity; N]) -> Option
     let dialect = Dialect::detect(text, None, false).ok()?;
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     let names = |(i, line): (usize, &str)| {
-        let line = line.trim_start_matches(['#', '%', '/', ' ']);
+        let line = uncommented(line);
         let is_header =
             !is_row(line) && Header::new(&dialect, i + 1, line, wanted, &Asked::default()).is_some();
         is_header.then_some(i + 1)
@@ -144,11 +160,14 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         if bare.is_empty() {
             return Ok(());
         }
+        if self.series.is_empty() && self.factor.is_none() && names_factor(bare) {
+            self.factor = Some((line, bare));
+        }
         if self.declares(line, bare) {
             return Ok(());
         }
         if is_comment(bare) && !self.are_units(bare) {
-            let content = bare.trim_start_matches(['#', '%', '/', ' ']);
+            let content = uncommented(bare);
             // a header behind the sign of a comment, as NumPy writes it; said again it begins another test
             let repeats = self.block.as_ref().is_some_and(|block| block.header.text.trim() == content);
             if (self.series.is_empty() || repeats)
@@ -375,7 +394,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let count: usize = self.series.iter().map(|s| s.rows.len()).sum();
         let plural = |n: usize, what: &str| if n > 1 { format!("{what} {n}") } else { String::new() };
         let understood = format!(
-            "{}; {}; {count} rows{}, lines {first} to {last}{}",
+            "{}; {}; {count} rows{}, lines {first} to {last}{}{}",
             self.said,
             self.dialect.describe(),
             plural(self.series.len(), ", tests"),
@@ -383,7 +402,11 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
                 format!(", other lines left out: {}", self.skipped)
             } else {
                 String::new()
-            }
+            },
+            self.factor.map_or(String::new(), |(line, text)| format!(
+                "; line {line} (\"{}\") changes nothing: if the numbers do not hold it yet, multiply the column by it",
+                shortened(text)
+            ))
         );
         let (scales, names, have_units) = (self.scales, self.names, self.have_units);
         Ok(SeriesTable { series: self.series, scales, names, have_units, understood })

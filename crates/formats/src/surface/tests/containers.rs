@@ -76,6 +76,8 @@ fn archives_of_other_programs_are_named() {
         (&b"\x89PNGrest"[..], "PNG"),
         (b"CDF\x01rest", "NetCDF"),
         (b"KPK1rest", "Keyence"),
+        (b"# vtk DataFile Version 3.0\nheights\nASCII\n", "(.vti, in ParaView)"),
+        (b"P5\n3 2\n255\n123456", "export the heights"),
         (b"\\*Force file list\r\n", "force curve"),
     ] {
         let refused = found("a.dat", start).unwrap_err();

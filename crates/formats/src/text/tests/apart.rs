@@ -190,3 +190,21 @@ fn one_name_fewer_than_columns_is_asked_about() {
         is_the_curve(text, [Some("2 [nm]"), Some("3 [mN]")]);
     }
 }
+
+/// Some programs hold a factor in the numbers already, others do not: the file cannot tell.
+#[test]
+fn a_factor_above_a_curve_is_said_to_change_nothing() {
+    let said = |line: &str| {
+        let text = format!("{line}\nDepth (nm)\tLoad (mN)\n100\t2\n200\t8\n");
+        is_the_curve(&text, COLUMNS);
+        indentation::read(&text, COLUMNS, None).unwrap().understood
+    };
+    for line in ["Load factor: 0.5", "# Kraftfaktor\t2", "Scaling = 1e-3", "Facteur de charge;0,5"] {
+        let understood = said(line);
+        assert!(understood.contains("line 1") && understood.contains("changes nothing"), "{understood}");
+    }
+    for line in ["Load factor: 1", "Factory: 5", "Tip area factor", "Load: 0.5 mN/s"] {
+        let understood = said(line);
+        assert!(!understood.contains("changes nothing"), "{understood}");
+    }
+}
