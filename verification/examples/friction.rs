@@ -4,8 +4,8 @@
 //! `verification/results/friction.md`, with `strip` `friction-strip.md`.
 
 use asperity_material::units::{Length, Stress};
-use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::record::rows::Summary;
+use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, Asperity, Friction, Loading, Material, Scene, Symmetry, Tool};
 use asperity_simulation::simulate::simulate;
 use asperity_solver::body::analysis::Analyses;

@@ -48,14 +48,8 @@ fn key_of(flag: &str, words: &[String]) -> Option<String> {
     // the key itself, else one that begins with it: slopes for slopes_deg
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
     let within = format!("{name}.");
-    let of_table: Vec<&str> =
-        paths.iter().map(|(path, _)| path.as_str()).filter(|path| path.starts_with(&within)).collect();
-    if !of_table.is_empty() {
-        return Some(format!(
-            "\"{name}\" is a table of the file: give its keys by --set, like --set \"{}=...\", one of {}",
-            of_table[0],
-            of_table.join(", ")
-        ));
+    if let Some((first, _)) = paths.iter().find(|(path, _)| path.starts_with(&within)) {
+        return Some(format!("\"{name}\" is a table: give its keys by --set, like --set \"{first}=...\""));
     }
     let (path, is_list) = paths
         .iter()
@@ -104,7 +98,7 @@ mod tests {
             ("asperity|crush|a.toml|--depth=3 um", "--set \"loading.depth=3 um\""),
             ("asperity|rough|a.toml|--pressure|5 MPa", "--set \"load.pressure=5 MPa\""),
             ("asperity|calibrate|--slopes|2", "--set \"slopes_deg=[2]\""),
-            ("asperity|rough|a.toml|--load|5 MPa", "one of load."),
+            ("asperity|rough|a.toml|--load|5 MPa", "--set \"load."),
             ("asperity|run|a.toml", "asperity crush SCENE"),
         ] {
             let told = told(line);

@@ -145,14 +145,9 @@ impl Dimension {
         let known = |test: &dyn Fn(&str) -> bool| {
             self.symbols().iter().chain(self.further()).find(|(name, _)| test(name)).map(|(_, scale)| *scale)
         };
-        // MN and mN differ by their case alone: meganewtons are not measured so
-        let small = if self == Dimension::Force && unit == "MN" { Some(1e-3) } else { None };
-        small
-            .or_else(|| known(&|name| name == unit))
-            .or_else(|| self.scale_in_words(&unit.to_lowercase()))
-            .or_else(|| {
-                known(&|name| self != Dimension::Stress && name.to_lowercase() == unit.to_lowercase())
-            })
+        known(&|name| name == unit).or_else(|| self.scale_in_words(&unit.to_lowercase())).or_else(|| {
+            known(&|name| self != Dimension::Stress && name.to_lowercase() == unit.to_lowercase())
+        })
     }
 
     fn scale_in_words(self, unit: &str) -> Option<f64> {

@@ -7,7 +7,7 @@ use super::names::{
 use super::remark::{Remark, has_decimal_comma, number_and_unit};
 use super::sides::{Sides, quoted};
 use crate::dimension::Dimension;
-use crate::text::{Decimal, Grid, TextError, folded_name, uncommented};
+use crate::text::{Decimal, Grid, Separator, TextError, folded_name, uncommented};
 
 /// Statements of the file on its heights, lengths in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -191,9 +191,12 @@ impl Described {
             let mut words = name.split(' ');
             let is_title = words.clone().all(|word| OF_HEIGHTS.contains(&word) || OF_NOTHING.contains(&word))
                 && words.any(|word| OF_HEIGHTS.contains(&word));
-            // Height: 1 um is a side, Heights in 0.1 um has a factor
-            let has_number = bare.contains(|c: char| c.is_ascii_digit()) && !bare.contains(['[', '(']);
-            if !is_title || scale.is_none() || has_number && bare.contains([':', '=']) {
+            // Height: 1 um and Height (mm): 1 are a side, Heights in 0.1 um has a factor
+            let marks = [':', '=', '\t', ';', ',', '[', '('];
+            let outside = [bare.split(['[', '(']).next(), bare.rsplit([']', ')']).next()];
+            let has_number =
+                outside.into_iter().flatten().any(|part| part.contains(|c: char| c.is_ascii_digit()));
+            if !is_title || scale.is_none() || has_number && bare.contains(marks) {
                 continue;
             }
             self.height_unit = self.height_unit.or(scale);
@@ -250,6 +253,23 @@ impl Described {
         const FACTORS: [&str; 7] =
             ["scale", "factor", "faktor", "multiplier", "scaling", "calibration", "kalibrierung"];
         const STEPS: [&str; 3] = ["lsb", "resolution", "increment"];
+        /// Words of what a whole number is worth, of heights unless of something else.
+        const WORTHS: [&str; 13] = [
+            "gain",
+            "sensitivity",
+            "empfindlichkeit",
+            "sensibilite",
+            "factor",
+            "faktor",
+            "skalierungsfaktor",
+            "facteur",
+            "multiplier",
+            "calibration",
+            "kalibrierung",
+            "digit",
+            "zstep",
+        ];
+        const OTHERS: [&str; 8] = ["x", "y", "xy", "lateral", "pixel", "zoom", "magnification", "camera"];
         const HEIGHTS: [&str; 7] = ["z", "data", "height", "heights", "value", "values", "vertical"];
         let numbers = remark.numbers(self.decimal);
         let is_whole = |number: &&(f64, Option<String>)| number.0 >= 2.0 && number.0.fract() == 0.0;
@@ -262,7 +282,9 @@ impl Described {
         let Some((number, rest)) = number_and_unit(&remark.value) else { return };
         let key = remark.key.as_str();
         let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
-        if MISSING.contains(&key) && rest.trim().is_empty() {
+        let is_bare =
+            rest.trim().is_empty() || rest.trim().starts_with('(') || Dimension::Length.scale(rest).is_some();
+        if MISSING.contains(&key) && is_bare {
             self.missing = Some(number);
         } else if key.contains("aspect") {
             let other =
@@ -270,9 +292,10 @@ impl Described {
             self.aspect = Some(number / other);
         } else if (has(&FACTORS) || has(&STEPS)) && has(&HEIGHTS) && number != 1.0
             || ["bit2nm", "lsb"].contains(&key)
+            || has(&WORTHS) && !has(&OTHERS) && number != 1.0
         {
             // with a unit it may be a range or a step of the digits
-            let is_factor = has(&FACTORS) && rest.trim().is_empty();
+            let is_factor = has(&FACTORS) && has(&HEIGHTS) && rest.trim().is_empty();
             let said = (format!("{key} = {}", remark.value), remark.line, is_factor);
             self.scale = self.scale.take().or(Some(said));
         }
@@ -282,7 +305,9 @@ impl Described {
     pub fn take_missing<'z>(&self, heights: impl Iterator<Item = &'z mut f64>) -> Option<String> {
         let mark = self.missing?;
         let count = heights.filter(|z| **z == mark).map(|z| *z = f64::NAN).count();
-        Some(format!("{count} points of {mark} are missing, as the words before the heights say"))
+        // no number of this size is a height, whatever the words say
+        let is_plain = count > 0 || mark.abs() < 1e30;
+        is_plain.then(|| format!("{count} points of {mark} are missing, as the words before the heights say"))
     }
 
     /// Refuses heights beside a factor, and whole numbers beside a step, whose meaning is not known.
@@ -303,6 +328,14 @@ impl Described {
              multiply them and delete this line, or set override = true if they are in their unit already"
         );
         Err(TextError::new(*line, problem).into())
+    }
+
+    /// The number of columns that the words name, where each row of the map is broken into several lines of
+    /// the file, as grids of geographers may be.
+    pub fn columns_of_broken_rows(&self, grid: &Grid<'_>) -> Option<usize> {
+        let [Some((columns, _)), Some((rows, _))] = self.counts else { return None };
+        let is_whole = columns.checked_mul(rows) == Some(grid.values.len());
+        (is_whole && columns > grid.columns && columns % grid.columns == 0).then_some(columns)
     }
 
     /// Compares the columns and rows that the words name with those that were found.
@@ -409,7 +442,7 @@ fn decimal_of(grid: &Grid<'_>, first: &str, remarks: &[Remark]) -> Option<Decima
     };
     if grid.dialect.decimal == Decimal::Comma {
         Some(Decimal::Comma)
-    } else if first.contains('.') {
+    } else if first.contains('.') || grid.dialect.separator == Separator::Mark(',') {
         Some(Decimal::Point)
     } else {
         remarks.iter().any(has_comma).then_some(Decimal::Comma)

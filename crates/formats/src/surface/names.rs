@@ -168,6 +168,14 @@ pub(super) const MISSING: &[&str] = &[
     "ungultiger wert",
     "valeur invalide",
     "valeur manquante",
+    "undefined value",
+    "mask value",
+    "fehlwert",
+    "invalid pixel value",
+    "invalid data",
+    "null",
+    "missing data value",
+    "無効値",
 ];
 
 /// Names of the numbers of columns and rows, which stand without a unit.

@@ -1,13 +1,15 @@
 //! Points put on the regular grid that they scatter about.
 
-use super::even::last_digit;
+use super::even::{Step, last_digit};
 use super::measured::MOST_NODES;
 use rayon::prelude::*;
 
 /// Largest distance of a point from its node, as a share of the step.
 const LARGEST_SCATTER: f64 = 0.05;
-/// The same of points whose places were rounded to so few digits.
+/// The same of points whose places were rounded to so few digits, where lines of the grid are absent.
 const LARGEST_ROUNDING: f64 = 0.3;
+/// Nodes over points up to which a grid with absent lines is believed whose places were rounded.
+const MOST_NODES_OF_ROUNDED: f64 = 1.3;
 /// Scatter below which nothing is said of it: that of printed digits.
 const SEEN_SCATTER: f64 = 1e-3;
 
@@ -35,6 +37,8 @@ struct Axis {
     count: usize,
     /// Half a unit of the last digit of the places, as a share of the step.
     rounding: f64,
+    /// The places of all nodes as they were printed, where rounding moved them.
+    rounded: Option<(Vec<f64>, Step)>,
 }
 
 /// The map through points x, y, z.
@@ -65,7 +69,8 @@ pub(super) fn onto_grid(points: &[[f64; 3]]) -> Result<Placed, String> {
     }
     let [round_x, round_y] = [x.rounding, y.rounding].map(|r| if r < LARGEST_ROUNDING { r } else { 0.0 });
     // a place may miss by its rounding and by that of the ends
-    let limit = (2.0 * round_x.max(round_y)).max(LARGEST_SCATTER);
+    let is_full = count as f64 <= MOST_NODES_OF_ROUNDED * points.len() as f64;
+    let limit = if is_full { (2.0 * round_x.max(round_y)).max(LARGEST_SCATTER) } else { LARGEST_SCATTER };
     if farthest > limit {
         return Err(cloud(&format!(
             "a point is {:.0} % of a step away from its node, more than {:.0} %",
@@ -74,16 +79,17 @@ pub(super) fn onto_grid(points: &[[f64; 3]]) -> Result<Placed, String> {
         )));
     }
     let share = |rounding: f64, count: usize| 2.0 * rounding / (count - 1).max(1) as f64;
-    let error =
+    let of_ends =
         if farthest > SEEN_SCATTER { share(round_x, x.count).max(share(round_y, y.count)) } else { 0.0 };
-    let note = (farthest > SEEN_SCATTER).then(|| {
-        format!(
-            "points put on a grid of {} x {}, the farthest by {:.1} % of a step",
-            x.count,
-            y.count,
-            100.0 * farthest
-        )
-    });
+    let of_rounded = [&x, &y].into_iter().flat_map(|axis| &axis.rounded).map(|(_, step)| step.error);
+    let error = of_rounded.fold(of_ends, f64::max);
+    let why = if farthest > SEEN_SCATTER {
+        Some(format!("the farthest by {:.1} % of a step", 100.0 * farthest))
+    } else {
+        (error > 0.0)
+            .then(|| format!("their places rounded so that steps are known to {:.2} %", 100.0 * error))
+    };
+    let note = why.map(|why| format!("points put on a grid of {} x {}, {why}", x.count, y.count));
     Ok(Placed { columns: x.count, rows: y.count, step: [x.step, y.step], error, heights, note })
 }
 
@@ -107,17 +113,29 @@ impl Axis {
             let name = if axis == 0 { "x" } else { "y" };
             cloud(&format!("their {name} scatter by more than {:.0} % of a step", 100.0 * LARGEST_SCATTER))
         })?;
+        // rounded places step by two lengths in turn
+        if let Some(even) = Step::new(&lines).filter(|even| even.error > 0.0) {
+            let (low, step, count) = (lines[0], even.length, lines.len());
+            return Ok(Axis { low, step, count, rounding: 0.0, rounded: Some((lines, even)) });
+        }
         let step = lines.windows(2).map(|l| l[1] - l[0]).fold(f64::INFINITY, f64::min);
         // the whole length over the number of steps is more exact than one step; lines may be absent
         let length = lines[lines.len() - 1] - lines[0];
         let steps = steps_between(&lines, step);
         let step = length / steps as f64;
         let rounding = last_digit(lines.iter().copied()).map_or(0.0, |unit| 0.5 * unit / step);
-        Ok(Axis { low: lines[0], step, count: steps + 1, rounding })
+        Ok(Axis { low: lines[0], step, count: steps + 1, rounding, rounded: None })
     }
 
     /// The nearest node and how far it is, as a share of the step.
     fn node(&self, value: f64) -> (usize, f64) {
+        if let Some((lines, _)) = &self.rounded {
+            let after = lines.partition_point(|line| *line < value).min(lines.len() - 1);
+            let before = after.saturating_sub(1);
+            let far = |node: usize| (lines[node] - value).abs() / self.step;
+            let node = if far(before) < far(after) { before } else { after };
+            return (node, far(node));
+        }
         let place = (value - self.low) / self.step;
         let node = place.round().clamp(0.0, (self.count - 1) as f64);
         (node as usize, (place - node).abs())

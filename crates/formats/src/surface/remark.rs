@@ -1,7 +1,7 @@
 //! Remarks `key: value` among the words before the heights of a text file.
 
 use crate::dimension::Dimension;
-use crate::text::{Decimal, Grid, folded_name, names_above, uncommented};
+use crate::text::{Decimal, Grid, Separator, folded_name, names_above, uncommented};
 
 /// A remark `key: value`.
 pub(super) struct Remark {
@@ -49,7 +49,13 @@ impl Remark {
                 .filter_map(|(name, number)| Remark::new(pair[1].0, &format!("{name}: {number}")))
                 .collect::<Vec<_>>()
         };
-        let of_lines = lines.iter().filter_map(|(line, text)| Remark::new(*line, text));
+        // where commas part columns, they part two numbers behind a name as well
+        let is_parted = grid.dialect.separator == Separator::Mark(',');
+        let of_lines = lines.iter().filter_map(|(line, text)| {
+            let cells = is_parted.then(|| grid.dialect.cells(text).collect::<Vec<_>>().join("\t"));
+            let remark = Remark::new(*line, cells.as_deref().unwrap_or(text))?;
+            Some(Remark { text: uncommented(text).replace('"', "").trim().to_string(), ..remark })
+        });
         of_lines.chain(lines.windows(2).flat_map(of_pair)).collect()
     }
 

@@ -74,6 +74,10 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
     let first = text.lines().nth(grid.lines[0] - 1).unwrap_or("");
     let said = Described::new(&grid, first, request)?;
+    if let Some(columns) = said.columns_of_broken_rows(&grid) {
+        notes.push(format!("each row of the map stands in {} lines", columns / grid.columns));
+        (grid.columns, grid.parts) = (columns, None);
+    }
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
     let named =
         Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
@@ -141,7 +145,9 @@ fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
 }
 
 /// A remark on places, called `what`, whose unit nothing tells.
-fn places_without_unit(what: &str, [x, y]: [f64; 2]) -> String {
+fn places_without_unit(what: &str, place: [f64; 2]) -> String {
+    // the noise of sums of decimals is no digit
+    let [x, y] = place.map(|x| format!("{x:.5e}").parse().unwrap_or(x));
     format!("{what} go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like")
 }
 

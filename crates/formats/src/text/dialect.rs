@@ -94,8 +94,10 @@ pub(super) fn is_row(line: &str) -> bool {
     let first = words.clone().next().unwrap_or("");
     // "Invalid value: -9999" is a remark
     let is_word = is_missing_word(first) && first.starts_with(char::is_alphabetic);
-    let starts = looks_like_number(first) || !first.is_empty() && is_missing_word(first);
-    if !starts && !line.to_ascii_lowercase().starts_with("no data") {
+    // "NODATA -9999" and "Invalid,Bad" name a mark
+    let is_pair = is_word && !first.to_ascii_lowercase().starts_with("nan") && words.clone().count() == 2;
+    let starts = !is_pair && (looks_like_number(first) || !first.is_empty() && is_missing_word(first));
+    if !starts && (is_pair || !line.to_ascii_lowercase().starts_with("no data")) {
         return false;
     }
     let (mut numbers, mut missing, mut others) = (0, 0, 0);
@@ -146,6 +148,7 @@ impl Dialect {
             }
             return Ok(Dialect { decimal, ..point });
         }
+        point.refuse_thousands(&looked_at, has_key)?;
         if !text.contains(',') || separator == Separator::Mark(',') && !text.contains('"') {
             return Ok(point);
         }
@@ -196,6 +199,47 @@ impl Dialect {
                 Err(TextError::new(line, message))
             }
         }
+    }
+
+    /// Refuses a column of whole numbers up to 999 and of others with just three decimals, all from 1: `525`
+    /// below `1.026` is what a spreadsheet shows of 1026 where points part thousands.
+    fn refuse_thousands(&self, rows: &[(usize, &str)], has_key: bool) -> Result<(), TextError> {
+        const LEAST: usize = 3;
+        let mut columns: Vec<Option<([usize; 2], (usize, &str))>> = Vec::new();
+        for &(line, row) in rows {
+            for (i, cell) in self.cells(row).enumerate() {
+                if i == columns.len() {
+                    columns.push(Some(([0, 0], (line, cell))));
+                }
+                let digits = cell.trim_start_matches(['-', '+', '−']);
+                let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+                let (whole, decimals) = digits.split_once('.').unwrap_or((digits, ""));
+                let is_short =
+                    is_digits(whole) && whole.len() <= 3 && (!whole.starts_with('0') || digits == "0");
+                match (columns[i].as_mut(), decimals) {
+                    (Some(_), _) if is_missing_word(cell) => {}
+                    (Some((count, _)), "") if is_short && !digits.contains('.') => {
+                        count[0] += usize::from(digits != "0")
+                    }
+                    (Some((count, example)), _) if is_short && decimals.len() == 3 && is_digits(decimals) => {
+                        count[1] += 1;
+                        *example = (line, cell);
+                    }
+                    _ => columns[i] = None,
+                }
+            }
+        }
+        let is_doubtful = |count: &[usize; 2]| count.iter().all(|count| *count >= LEAST);
+        let Some((_, (line, cell))) = columns.into_iter().flatten().find(|(count, _)| is_doubtful(count))
+        else {
+            return Ok(());
+        };
+        let key = if has_key { format!(", or set decimal = \"point\" for {cell}") } else { String::new() };
+        let message = format!(
+            "\"{cell}\" is {cell} or {}, and whole numbers stand in its column: write numbers without marks between thousands{key}",
+            cell.replace('.', "")
+        );
+        Err(TextError::new(line, message))
     }
 
     fn separator_of(text: &str, rows: &[(usize, &str)]) -> Separator {
@@ -325,7 +369,9 @@ impl Dialect {
             Decimal::Comma if cell.contains('.') => {
                 format!("\"{cell}\" is not a number: in this file decimals stand behind a comma, not a point")
             }
-            _ => format!("\"{cell}\" is not a number: leave out lines that hold none, or begin them with #"),
+            _ => format!(
+                "\"{cell}\" is not a number: write nan where nothing was measured, and begin lines of words with #"
+            ),
         }
     }
 

@@ -2,19 +2,14 @@
 
 use super::TextError;
 use crate::workbook;
+use encoding_rs::{SHIFT_JIS, WINDOWS_1252};
 use std::borrow::Cow;
 
 /// Bytes that are looked at to tell UTF-16 without a mark, and text from other data.
 const LOOKED_AT: usize = 1 << 16;
 
-/// Characters of the bytes 0x80 to 0x9F in Windows-1252.
-const WINDOWS_1252: [char; 32] = [
-    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}',
-    '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
-];
-
 /// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
-/// UTF-8 where it is that, else Windows-1252; of a workbook the sheet with a table. Lines end in `\n`
+/// UTF-8 where it is that, else Shift-JIS where it can only be that, or Windows-1252; of a workbook the sheet with a table. Lines end in `\n`
 /// or `\r\n`.
 ///
 /// # Errors
@@ -68,8 +63,22 @@ fn decode_characters(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextE
     }
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok((text.into(), "UTF-8")),
-        Err(_) => Ok((bytes.iter().map(|b| windows_1252(*b)).collect::<String>().into(), "Windows-1252")),
+        Err(_) => Ok(japanese(bytes).map_or_else(
+            || (WINDOWS_1252.decode_without_bom_handling(bytes).0, "Windows-1252"),
+            |text| (text, "Shift-JIS"),
+        )),
     }
+}
+
+/// The text of `bytes` in Shift-JIS, where more of its pairs begin as kana and usual kanji do than as letters
+/// with accents of Windows-1252 before others would: these are hardly ever two in a row.
+fn japanese(bytes: &[u8]) -> Option<Cow<'_, str>> {
+    let text = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes)?;
+    let is_kana_or_kanji = |c: &char| matches!(*c, '\u{3041}'..='\u{30fe}' | '\u{4e00}'..='\u{9fff}');
+    let letters: Vec<bool> = text.chars().filter(|c| !c.is_ascii()).map(|c| is_kana_or_kanji(&c)).collect();
+    let in_a_row = letters.windows(2).filter(|two| two[0] && two[1]).count();
+    let leads = bytes.iter().filter(|byte| (0x81..=0x9f).contains(*byte)).count();
+    (in_a_row > 0 && 2 * leads >= letters.len()).then_some(text)
 }
 
 fn no_text(sample: &[u8], is_strange: impl Fn(u8) -> bool) -> TextError {
@@ -80,11 +89,4 @@ fn no_text(sample: &[u8], is_strange: impl Fn(u8) -> bool) -> TextError {
 fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
     let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
     char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
-}
-
-fn windows_1252(byte: u8) -> char {
-    match byte {
-        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
-        _ => char::from(byte),
-    }
 }

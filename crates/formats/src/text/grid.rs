@@ -25,6 +25,8 @@ pub struct Grid<'t> {
     pub after: usize,
     /// True where columns, and rows, without a number stand at the edges: they may be of the map or not.
     pub empty_edges: [bool; 2],
+    /// True where an empty first column was left out.
+    pub has_empty_column: bool,
     /// Several tables of equal size that empty lines, rows or columns or notes part.
     pub parts: Option<Tables>,
 }
@@ -88,8 +90,26 @@ pub fn read_grid(text: &str, missing: Option<f64>, decimal: Option<Decimal>) -> 
     let corner_is_empty = dialect.number(corner).is_none_or(f64::is_nan);
     let parts = equal_tables(&values, columns, breaks);
     let empty_edges = [all_start_empty, has_empty_rows(&dialect, outside, columns)];
-    let mut grid =
-        Grid { dialect, before, columns, values, lines, corner_is_empty, after, empty_edges, parts };
+    let mut grid = Grid {
+        dialect,
+        before,
+        columns,
+        values,
+        lines,
+        corner_is_empty,
+        after,
+        empty_edges,
+        has_empty_column: false,
+        parts,
+    };
+    if all_start_empty && !all_end_empty && columns > 2 {
+        // one before the first cell neither; where more columns are empty they may be of the map
+        let mut second = grid.values.iter().skip(1).step_by(columns);
+        if second.any(|z| !z.is_nan()) {
+            grid.values = grid.values.chunks_exact(columns).flat_map(|row| row[1..].to_vec()).collect();
+            (grid.columns, grid.has_empty_column) = (columns - 1, true);
+        }
+    }
     if all_end_empty && columns > 1 {
         // a separator at the end of every line makes no further column
         grid.drop_last_column();
@@ -123,9 +143,10 @@ impl Grid<'_> {
     pub fn describe(&self) -> String {
         let skipped = self.before.iter().filter(|(_, line)| !line.is_empty()).count() + self.after;
         format!(
-            "text with {}; rows of {} numbers in lines {} to {}{}",
+            "text with {}; rows of {} numbers{} in lines {} to {}{}",
             self.dialect.describe(),
             self.columns,
+            if self.has_empty_column { " behind an empty first cell" } else { "" },
             self.lines[0],
             self.lines[1],
             if skipped > 0 { format!(", {skipped} lines of words beside them") } else { String::new() }
@@ -147,7 +168,7 @@ fn beginning<'t>(text: &'t str, dialect: &Dialect) -> Result<(Before<'t>, usize,
         if !bare.is_empty() && !is_comment(bare) && is_all_numbers(line) {
             let mut later = text[at + line.len()..].lines().filter(|line| !is_comment(line.trim()));
             let next = later.find(|line| is_all_numbers(line));
-            if !is_below_names(dialect, &before, line, next) {
+            if !is_below_names(dialect, &before, line, next) && !counts_points(dialect, line, next) {
                 return Ok((before, at, line));
             }
             before.push((i + 1, bare));
@@ -172,6 +193,12 @@ fn is_below_names(dialect: &Dialect, before: &Before<'_>, row: &str, next: Optio
     let count = filled_cells(dialect, row);
     names_above(dialect, names, row).is_some()
         && next.is_some_and(|next| filled_cells(dialect, next) >= 2 * count)
+}
+
+/// True of a line with one number before rows of three and more: how many points follow.
+fn counts_points(dialect: &Dialect, row: &str, next: Option<&str>) -> bool {
+    let is_one = row.trim().bytes().all(|b| b.is_ascii_digit());
+    is_one && next.is_some_and(|next| filled_cells(dialect, next) >= 3)
 }
 
 /// Cells of a line up to the last that is not empty.

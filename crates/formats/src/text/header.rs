@@ -75,7 +75,31 @@ pub(crate) struct Columns<const N: usize> {
 }
 
 /// Names of the column that numbers tests.
-const TESTS: [&str; 8] = ["test", "specimen", "indent", "run", "sample", "probe", "versuch", "essai"];
+const TESTS: [&str; 15] = [
+    "test",
+    "specimen",
+    "indent",
+    "run",
+    "sample",
+    "probe",
+    "versuch",
+    "essai",
+    "prufung",
+    "messung",
+    "measurement",
+    "curve",
+    "kurve",
+    "mesure",
+    "location",
+];
+/// Words of a number: behind such a name, or alone.
+const OF_A_NUMBER: [&str; 7] = ["no", "nr", "no.", "nr.", "number", "nummer", "id"];
+
+/// True of the name of a column that numbers tests.
+fn numbers_tests(name: &str) -> bool {
+    let (first, rest) = name.split_once(' ').unwrap_or((name, ""));
+    TESTS.contains(&first) && (rest.is_empty() || OF_A_NUMBER.contains(&rest)) || OF_A_NUMBER.contains(&name)
+}
 
 /// Cells of a header; where blanks part columns, `wanted` of them if there is a way to read so many.
 pub(crate) fn header_cells(dialect: &Dialect, text: &str, wanted: Option<usize>) -> Vec<String> {
@@ -209,7 +233,7 @@ impl<'t> Header<'t> {
                 None => heads[found[i][0].column].text.clone(),
             }),
             have_units: std::array::from_fn(|i| heads[found[i][0].column].unit.is_some()),
-            test: heads.iter().position(|head| TESTS.contains(&head.name.as_str())),
+            test: heads.iter().position(|head| numbers_tests(&head.name)),
             said: said.join(", "),
         })
     }

@@ -147,7 +147,7 @@ impl Heading {
     pub fn new(text: &str) -> Heading {
         let text = text.trim();
         let (name, unit) = parts(text);
-        let (name, unit) = (folded(&name), unit.map(|unit| unit.trim().to_string()));
+        let (name, unit) = (folded(&name), unit.map(|unit| with_case(text, unit.trim())));
         let (name, unit) = with_prefix(name, unit);
         // one word of German
         let engineers = ["nenn", "ingenieur"].iter().find_map(|of| Some((of, name.strip_prefix(of)?)));
@@ -167,7 +167,8 @@ impl Heading {
     /// The head with the `unit` of another cell, in brackets or not, where it has none of its own.
     fn in_unit(mut self, unit: Option<&String>) -> Heading {
         let bare = unit.map(|unit| unit.trim_matches(['(', ')', '[', ']', '{', '}']).trim().to_string());
-        self.unit = self.unit.or(bare.filter(|unit| !unit.is_empty()));
+        self.unit =
+            self.unit.or(bare.filter(|unit| !unit.is_empty()).map(|unit| with_case(&self.text, &unit)));
         self
     }
 
@@ -265,7 +266,10 @@ impl Heading {
 
     /// The rank of the name, whatever it says of corrections.
     fn bare_rank(&self, quantity: &Quantity) -> Option<u8> {
-        const OTHERS: [&str; 14] = [
+        const OTHERS: [&str; 17] = [
+            "lateral",
+            "tangential",
+            "transverse",
             "rate",
             "nodal",
             "error",
@@ -310,6 +314,13 @@ impl Heading {
             None
         }
     }
+}
+
+/// The `unit` of the head `text`: in one of words in capitals alone MN is mN.
+fn with_case(text: &str, unit: &str) -> String {
+    let letters = text.split(['(', '[']).next().map_or(0, |name| name.matches(char::is_alphabetic).count());
+    let is_small = unit == "MN" && letters > 1 && !text.contains(char::is_lowercase);
+    if is_small { "mN".into() } else { unit.into() }
 }
 
 /// Name and unit of a head.

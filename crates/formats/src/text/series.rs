@@ -382,11 +382,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
     }
 
     fn finish(mut self, text: &str) -> Result<SeriesTable<N>, TextError> {
-        // a column of another number in each row counts rows, not tests
-        if self.series.len() > 2 && self.series.iter().all(|test| test.rows.len() == 1) {
-            let (rows, lines) = self.series.iter().map(|test| (test.rows[0], test.lines[0])).unzip();
-            self.series = vec![Series { label: "1".into(), rows, lines }];
-        }
+        self.join_counted_rows();
         let lines = || self.series.iter().flat_map(|series| &series.lines);
         let (Some(first), Some(last)) = (lines().min(), lines().max()) else {
             return Err(self.nothing(text));
@@ -410,6 +406,20 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         );
         let (scales, names, have_units) = (self.scales, self.names, self.have_units);
         Ok(SeriesTable { series: self.series, scales, names, have_units, understood })
+    }
+
+    /// Makes one test of those of a column that counts rows: it holds another number in nearly each.
+    fn join_counted_rows(&mut self) {
+        let mut rows: Vec<(usize, usize, [f64; N])> = Vec::new();
+        for (k, test) in self.series.iter().enumerate() {
+            rows.extend(test.lines.iter().zip(&test.rows).map(|(line, row)| (*line, k, *row)));
+        }
+        rows.sort_by_key(|(line, ..)| *line);
+        let changes = rows.windows(2).filter(|two| two[0].0 != two[1].0 && two[0].1 != two[1].1).count();
+        if self.series.len() > 2 && 2 * changes > rows.len() {
+            let (lines, rows) = rows.into_iter().map(|(line, _, row)| (line, row)).unzip();
+            self.series = vec![Series { label: "1".into(), rows, lines }];
+        }
     }
 
     /// The number of largest size in each column of the rows, as it is written.

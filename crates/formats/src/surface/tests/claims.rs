@@ -132,3 +132,110 @@ fn lists_wrapped_rows_and_two_tables_are_no_map() {
     assert_eq!(found(&MAP.replace('\n', "\n\n")).unwrap().rows, 3);
     assert_eq!(found(&format!("Lines: 3\nPoints: 4\n{MAP}")).unwrap().rows, 3);
 }
+
+/// A program that parts columns by commas writes none before decimals.
+#[test]
+fn two_sizes_that_a_comma_parts_are_two() {
+    let rows = MAP.replace(' ', ",");
+    for (words, wanted) in [
+        ("Pixel spacing,5,2,um\nHeight unit,um\n", [5.0, 2.0]),
+        ("Pixel size (um),1,2\n", [1.0, 2.0]),
+        ("\"Scan size\",\"8\",\"3\",\"um\"\n", [2.0, 1.0]),
+        ("Step,2.5,um\n", [2.5, 2.5]),
+    ] {
+        let map = found(&format!("{words}{rows}")).unwrap();
+        let Spacing::Metres(pixel) = map.spacing else { panic!("{words} {map:?}") };
+        assert_eq!(pixel.map(|side| (side * 1e9).round() / 1e3), wanted, "{words}");
+    }
+}
+
+#[test]
+fn a_height_of_the_map_is_no_unit_of_its_heights() {
+    for words in [
+        "Width (mm): 0.008\nHeight (mm): 0.003\n",
+        "Breite (mm)\t0,008\nHöhe (mm)\t0,003\n",
+        "Width [mm] = 0.008\nHeight [mm] = 0.003\n",
+        "Width (mm) 0.008\nHeight (mm) 0.003\n",
+    ] {
+        let rows = if words.contains("0,") { MAP.replace('.', ",").replace(' ', "\t") } else { MAP.into() };
+        let map = found(&format!("{words}{rows}")).unwrap();
+        let Spacing::Metres(pixel) = map.spacing else { panic!("{words} {map:?}") };
+        assert_eq!(pixel.map(|side| (side * 1e9).round() / 1e3), [2.0, 1.0], "{words}");
+        assert_eq!(map.height_unit, None, "{words}");
+    }
+}
+
+#[test]
+fn what_a_whole_number_is_worth_is_asked_about() {
+    let whole = "12 15 11 19\n15 13 18 14\n16 12 19 11\n";
+    for words in ["Gain = 0.5", "Z Gain: 0.5 nm/LSB", "Sensitivity = 0.5 nm/V", "Facteur Z : 0.5"] {
+        let refused = found(&format!("{words}\n{whole}")).unwrap_err();
+        assert!(refused.contains("whole numbers"), "{words}: {refused}");
+    }
+    for words in ["Gain = 1", "Zoom factor: 20", "Pixel calibration: 0.5 um", "Camera gain: 3"] {
+        assert!(found(&format!("{words}\n{whole}")).is_ok(), "{words}");
+    }
+}
+
+#[test]
+fn marks_of_missing_points_have_many_names() {
+    for words in [
+        "NODATA -9999",
+        "NoData\t-9999",
+        "Missing value: -9999 (not measured)",
+        "Undefined value -9999",
+        "null: -9999",
+        "Invalid pixel value = -9999 um",
+    ] {
+        let map = found(&format!("{words}\n{}", MAP.replace("0.8", "-9999"))).unwrap();
+        let missing = map.heights.iter().filter(|z| z.is_nan()).count();
+        assert_eq!((map.columns, map.rows, missing), (4, 3, 1), "{words}");
+    }
+    for words in ["Invalid Bad", "Missing NaN"] {
+        let map = found(&format!("{words}\n{}", MAP.replace("0.8", "Bad"))).unwrap();
+        assert_eq!((map.columns, map.rows), (4, 3), "{words}");
+    }
+}
+
+/// ESRI, ASCII grid: a carriage return is not required at the end of each row.
+#[test]
+fn rows_of_a_map_may_stand_in_several_lines() {
+    let numbers: Vec<&str> = MAP.split_whitespace().collect();
+    let broken: String = numbers.chunks(2).map(|two| two.join(" ") + "\n").collect();
+    let map = found(&format!("ncols 4\nnrows 3\ncellsize 2\n{broken}")).unwrap();
+    assert_eq!((map.columns, map.rows), (4, 3));
+    assert_eq!(map.heights[4..8], [0.5, 0.3, 0.8, 0.4]);
+    assert!(map.notes.iter().any(|note| note.contains("in 2 lines")), "{:?}", map.notes);
+}
+
+/// Coordinates in mm with three decimals, in um with two: each node is there, though its steps are of two
+/// lengths. The true pixel lies within what is said to be known of it.
+#[test]
+fn places_rounded_coarser_than_half_a_step_are_those_of_the_whole_grid() {
+    let pairs = [(2.5, 1.0), (1.25, 1.0), (1.5, 1.0), (1.7, 1.0), (2.764, 1.0), (19.53125, 10.0), (3.3, 1.0)];
+    for (step, digit) in pairs {
+        let place = |i: usize| (i as f64 * step / digit).round() * digit;
+        let height = |i: usize, j: usize| ((i * 37 + j * 61 + i * j * 7) % 101) as f64;
+        let (columns, rows) = (40, 30);
+        let points: String = (0..columns * rows)
+            .map(|n| (n % columns, n / columns))
+            .map(|(i, j)| format!("{} {} {}\n", place(i), place(j), height(i, j)))
+            .collect();
+        let map = found(&format!("X Y Z\n{points}")).unwrap();
+        assert_eq!((map.columns, map.rows), (columns, rows), "{step}");
+        assert!((0..columns).all(|i| map.heights[3 * columns + i] == height(i, 3)), "{step}");
+        let Spacing::HeightUnits(pixel) = map.spacing else { panic!("{step}: {:?}", map.spacing) };
+        let off = (pixel[0] / step - 1.0).abs().max((pixel[1] / step - 1.0).abs());
+        assert!(
+            off <= map.spacing_error + 1e-12 && map.spacing_error < 0.02,
+            "{step}: {off} {}",
+            map.spacing_error
+        );
+    }
+}
+
+#[test]
+fn a_number_of_points_above_a_cloud_is_none_of_them() {
+    let map = found("6\n0 0 1\n2 0 2\n4 0 3\n0 1 4\n2 1 5\n4 1 6\n").unwrap();
+    assert_eq!((map.columns, map.rows), (3, 2));
+}

@@ -57,7 +57,7 @@ fn size_pixels_and_units_in_words_are_used() {
     let nova = "NX = 3\nNY = 2\nScale X = 1\nScale Y = 0.5\nUnit X = um\nUnit Data = nm\nStart of Data :\n";
     is_of(&found("a.txt", &format!("{nova}{MAP}")).unwrap(), [1e-6, 0.5e-6], 1e-9);
     // numbers of pixels and times are no lengths
-    let counts = "Width: 3\nHeight: 2\nDate: 12.05.2024 11:50:04\nGain = 3 um/V\n";
+    let counts = "Width: 3\nHeight: 2\nDate: 12.05.2024 11:50:04\nCamera gain = 3\n";
     let bare = found("a.txt", &format!("{counts}{MAP}")).unwrap();
     assert_eq!((bare.spacing, bare.height_unit), (Spacing::Unknown, None));
 }

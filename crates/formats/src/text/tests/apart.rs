@@ -208,3 +208,70 @@ fn a_factor_above_a_curve_is_said_to_change_nothing() {
         assert!(!understood.contains("changes nothing"), "{understood}");
     }
 }
+
+/// The unit MN is of meganewtons; programs that write capitals alone mean mN.
+#[test]
+fn meganewtons_are_none_but_in_a_head_of_capitals() {
+    let force = |text: &str, columns| indentation::read(text, columns, None).unwrap().series[0].rows[0][1];
+    assert!(is_near(force("DEPTH (NM),LOAD (MN)\n100,2\n200,8\n", COLUMNS), 2e-3));
+    assert!(is_near(force("DEPTH;LOAD\nNM;MN\n100;2\n200;8\n", COLUMNS), 2e-3));
+    assert!(is_near(force("Displacement (mm),Force (MN)\n1,2\n2,8\n", COLUMNS), 2e6));
+    assert!(is_near(force("1,2\n2,8\n", [Some("1 [mm]"), Some("2 [MN]")]), 2e6));
+}
+
+/// The frame of the machine bends with its crosshead, not between the ends of a gauge on the sample.
+#[test]
+fn a_gauge_beside_the_crosshead_is_asked_about() {
+    for head in
+        ["Traversenweg (mm);Wegaufnehmer (mm)", "Stroke (mm);LVDT (mm)", "Crosshead (mm);Extensometer (mm)"]
+    {
+        let text = format!("{head};Force (N)\n0.2;0.1;2\n0.4;0.2;8\n");
+        let fault = indentation::read(&text, COLUMNS, None).unwrap_err();
+        assert!(fault.message.contains("may all be the depth"), "{fault}");
+    }
+    let lateral = "Normal force (mN);Normal displacement (nm);Lateral force (mN);Lateral displacement (nm)";
+    is_the_curve(&format!("{lateral}\n2;100;9;9\n8;200;9;9\n"), COLUMNS);
+}
+
+#[test]
+fn tests_are_numbered_by_columns_of_many_names() {
+    for name in ["Nr", "No.", "Test No", "Prüfung", "Messung", "Measurement", "Curve", "ID", "Probe Nr."] {
+        let rows = |test: usize| (1..5).map(|i| format!("{test};{}00;{i}\n", i)).collect::<String>();
+        let text = format!("{name};Depth (nm);Load (mN)\n{}{}", rows(1), rows(2));
+        let table = indentation::read(&text, COLUMNS, None).unwrap();
+        let lengths: Vec<usize> = table.series.iter().map(|series| series.rows.len()).collect();
+        assert_eq!(lengths, [4, 4], "{name}");
+        // a number in each row counts these, also where it begins anew
+        let counted = (0..8).map(|i| format!("{};{}00;{i}\n", i % 4, i + 1)).collect::<String>();
+        let text = format!("{name};Depth (nm);Load (mN)\n{counted}");
+        let table = indentation::read(&text, COLUMNS, None).unwrap();
+        assert_eq!((table.series.len(), table.series[0].rows.len()), (1, 8), "{name}");
+    }
+}
+
+/// A spreadsheet of a place where points part thousands shows 1026 as 1.026 and 525 as 525.
+#[test]
+fn thousands_behind_points_among_whole_numbers_are_refused() {
+    let map =
+        "750;1.227;1.624\n1.873;932;1.791\n473;1.026;525\n1.050;324;1.300\n980;1.210;730\n1.410;880;1.730\n";
+    let fault = read_grid(map, None, None).unwrap_err();
+    assert!(fault.message.contains(" or 1") && fault.message.contains("decimal = \"point\""), "{fault}");
+    assert!(read_grid(map, None, Some(Decimal::Point)).is_ok());
+    for sound in
+        ["0.500 12\n1.227 13\n2.500 14\n3.750 15\n", "1\t1.5\n2\t1.125\n3\t2\n4\t2.375\n5\t3\n6\t3.5\n"]
+    {
+        assert!(read_grid(sound, None, None).is_ok(), "{sound}");
+    }
+}
+
+/// Igor begins its rows with a tab, other programs with the separator of a column of labels.
+#[test]
+fn an_empty_first_column_is_none_of_the_map() {
+    for mark in ["\t", ",", ";"] {
+        let row = |cells: [&str; 3]| format!("{mark}{}\n", cells.join(mark));
+        let text = row(["1", "2.5", "3"]) + &row(["4", "5", "6"]);
+        let grid = read_grid(&text, None, None).unwrap();
+        assert_eq!((grid.columns, grid.rows(), grid.values.len()), (3, 2, 6), "{text}");
+        assert!(grid.describe().contains("empty first cell"), "{}", grid.describe());
+    }
+}
