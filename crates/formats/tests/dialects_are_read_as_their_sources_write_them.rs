@@ -57,6 +57,14 @@ fn curves() -> Vec<Dialect> {
             bytes: windows_1252("Eindringtiefe;Prüfkraft\r\nµm;mN\r\n0,1;2,0\r\n0,2;8,0\r\n"),
             columns: [None; 2],
         },
+        Dialect {
+            feature: "Shift-JIS, names in Japanese",
+            source: "Windows of Japan, written by Python's codec",
+            name: "curve.csv",
+            // 変位(μm),試験力(mN)
+            bytes: b"\x95\xcf\x88\xca(\x83\xcam),\x8e\x8e\x8c\xb1\x97\xcd(mN)\r\n0.1,2\r\n0.2,8\r\n".into(),
+            columns: [None; 2],
+        },
     ];
     for (feature, source, text) in [
         (
@@ -321,6 +329,24 @@ fn maps() -> Vec<Dialect> {
             "grids of ESRI and of programs",
             "map.asc",
             "ncols 3\nnrows 2\npixel size = 1 um\nz unit = nm\nNODATA_value -9999\n1 2 3\n4 -9999 6\n",
+        ),
+        dialect(
+            "rows in several lines",
+            "ESRI, ASCII grid",
+            "map.asc",
+            "ncols 3\nnrows 2\npixel size = 1 um\nz unit = nm\nnull -1\n1\n2\n3\n4\n-1\n6\n",
+        ),
+        dialect(
+            "two sizes that commas part",
+            "spreadsheets and programs, CSV",
+            "map.csv",
+            "Pixel size,1,1,um\nHeight unit,nm\n1,2,3\n4,,6\n",
+        ),
+        dialect(
+            "an empty cell before each row",
+            "Igor, text waves",
+            "map.txt",
+            "pixel size = 1 um\nz unit = nm\n\t1\t2\t3\n\t4\tnan\t6\n",
         ),
         dialect(
             "bars between heights",
