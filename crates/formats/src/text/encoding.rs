@@ -9,8 +9,8 @@ use std::borrow::Cow;
 const LOOKED_AT: usize = 1 << 16;
 
 /// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
-/// UTF-8 where it is that, else Shift-JIS where it can only be that, or Windows-1252; of a workbook the sheet with a table. Lines end in `\n`
-/// or `\r\n`.
+/// UTF-8 where it is that, else Shift-JIS where it can only be that, or Windows-1252; of a workbook the
+/// sheet with a table. Lines end in `\n` or `\r\n`.
 ///
 /// # Errors
 /// Bytes that are no text.
