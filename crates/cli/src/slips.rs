@@ -3,17 +3,15 @@
 use crate::schema::{SchemaKind, of_kind};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use serde_json::Value;
+use std::path::Path;
 
 /// `wrong` with the way out that the words of the command line, `words`, ask for.
 pub fn with_way_out(mut wrong: clap::Error, words: &[String]) -> clap::Error {
-    let text = |kind: ContextKind| match wrong.get(kind) {
-        Some(ContextValue::String(text)) => Some(text.clone()),
-        _ => None,
-    };
+    let text = |kind: ContextKind| wrong.get(kind).map(ToString::to_string);
     let way_out = match wrong.kind() {
         ErrorKind::UnknownArgument => text(ContextKind::InvalidArg).and_then(|flag| key_of(&flag, words)),
         ErrorKind::InvalidSubcommand => {
-            text(ContextKind::InvalidSubcommand).filter(|word| word == "run" || is_file(word)).map(|_| {
+            text(ContextKind::InvalidSubcommand).filter(|word| word == "run" || Path::new(word).is_file()).map(|_| {
                 "a scene is computed by `asperity crush SCENE`, a measured surface by `asperity rough SURFACE`"
                     .into()
             })
@@ -27,10 +25,6 @@ pub fn with_way_out(mut wrong: clap::Error, words: &[String]) -> clap::Error {
         wrong.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![way_out.into()]));
     }
     wrong
-}
-
-fn is_file(word: &str) -> bool {
-    std::path::Path::new(word).is_file()
 }
 
 /// The sentence for a `flag` that is a key of the file which the command reads.
@@ -47,8 +41,7 @@ fn key_of(flag: &str, words: &[String]) -> Option<String> {
     keys(&of_kind(kind).to_value(), "", &mut paths);
     // the key itself, else one that begins with it: slopes for slopes_deg
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
-    let within = format!("{name}.");
-    if let Some((first, _)) = paths.iter().find(|(path, _)| path.starts_with(&within)) {
+    if let Some((first, _)) = paths.iter().find(|(path, _)| path.starts_with(&format!("{name}."))) {
         return Some(format!("\"{name}\" is a table: give its keys by --set, like --set \"{first}=...\""));
     }
     let (path, is_list) = paths
