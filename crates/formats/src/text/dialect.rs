@@ -1,7 +1,7 @@
 //! Cells of a line and numbers in them, as the program that wrote the file parts and writes them.
 
 use super::heading::is_unit;
-use super::{TextError, shortened};
+use super::{TextError, shortened, thousands};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -148,7 +148,8 @@ impl Dialect {
             }
             return Ok(Dialect { decimal, ..point });
         }
-        point.refuse_thousands(&looked_at, has_key)?;
+        let cells = looked_at.iter().map(|&(line, row)| (line, point.cells(row)));
+        thousands::refuse_doubtful(cells, has_key)?;
         if !text.contains(',') || separator == Separator::Mark(',') && !text.contains('"') {
             return Ok(point);
         }
@@ -199,47 +200,6 @@ impl Dialect {
                 Err(TextError::new(line, message))
             }
         }
-    }
-
-    /// Refuses a column of whole numbers up to 999 and of others with just three decimals, all from 1: `525`
-    /// below `1.026` is what a spreadsheet shows of 1026 where points part thousands.
-    fn refuse_thousands(&self, rows: &[(usize, &str)], has_key: bool) -> Result<(), TextError> {
-        const LEAST: usize = 3;
-        let mut columns: Vec<Option<([usize; 2], (usize, &str))>> = Vec::new();
-        for &(line, row) in rows {
-            for (i, cell) in self.cells(row).enumerate() {
-                if i == columns.len() {
-                    columns.push(Some(([0, 0], (line, cell))));
-                }
-                let digits = cell.trim_start_matches(['-', '+', '−']);
-                let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-                let (whole, decimals) = digits.split_once('.').unwrap_or((digits, ""));
-                let is_short =
-                    is_digits(whole) && whole.len() <= 3 && (!whole.starts_with('0') || digits == "0");
-                match (columns[i].as_mut(), decimals) {
-                    (Some(_), _) if is_missing_word(cell) => {}
-                    (Some((count, _)), "") if is_short && !digits.contains('.') => {
-                        count[0] += usize::from(digits != "0")
-                    }
-                    (Some((count, example)), _) if is_short && decimals.len() == 3 && is_digits(decimals) => {
-                        count[1] += 1;
-                        *example = (line, cell);
-                    }
-                    _ => columns[i] = None,
-                }
-            }
-        }
-        let is_doubtful = |count: &[usize; 2]| count.iter().all(|count| *count >= LEAST);
-        let Some((_, (line, cell))) = columns.into_iter().flatten().find(|(count, _)| is_doubtful(count))
-        else {
-            return Ok(());
-        };
-        let key = if has_key { format!(", or set decimal = \"point\" for {cell}") } else { String::new() };
-        let message = format!(
-            "\"{cell}\" is {cell} or {}, and whole numbers stand in its column: write numbers without marks between thousands{key}",
-            cell.replace('.', "")
-        );
-        Err(TextError::new(line, message))
     }
 
     fn separator_of(text: &str, rows: &[(usize, &str)]) -> Separator {
@@ -334,12 +294,13 @@ impl Dialect {
             Decimal::Point => ('.', ','),
             Decimal::Comma => (',', '.'),
         };
-        if cell.contains(other) && !has_thousands(cell, mark, other) {
+        if cell.contains(other) && !thousands::parts_groups(cell, mark, other) {
             return None;
         }
         // a blank parts nothing else in a cell: decimals need not tell
         let has_groups = cell.contains(' ')
-            && (has_thousands(cell, mark, ' ') || has_thousands(&format!("{cell}{mark}0"), mark, ' '));
+            && (thousands::parts_groups(cell, mark, ' ')
+                || thousands::parts_groups(&format!("{cell}{mark}0"), mark, ' '));
         let mut plain = String::with_capacity(cell.len());
         for c in cell.chars() {
             match c {
@@ -428,21 +389,6 @@ fn is_decimal_comma(cell: &str) -> Option<bool> {
     let is_group = decimals.len() == 3 && decimals.bytes().all(|b| b.is_ascii_digit());
     let may_be_thousand = is_group && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
     if may_be_thousand { None } else { Some(true) }
-}
-
-/// True of a number with groups of three digits that `other` parts, and decimals behind `mark`, or of
-/// several groups. Where decimals stand behind a point, one group is enough: that they do is known then.
-fn has_thousands(cell: &str, mark: char, other: char) -> bool {
-    let (whole, has_mark) = cell.split_once(mark).map_or((cell, false), |(whole, _)| (whole, true));
-    let mut groups = whole.trim_start_matches(['-', '+', '−']).split(other);
-    let first = groups.next().unwrap_or("");
-    let later: Vec<&str> = groups.collect();
-    let is_digits = |group: &str| !group.is_empty() && group.bytes().all(|b| b.is_ascii_digit());
-    (has_mark || later.len() > 1 || mark == '.' && later.len() == 1 && !first.starts_with('0'))
-        && (1..=3).contains(&first.len())
-        && is_digits(first)
-        && later.iter().all(|group| group.len() == 3 && is_digits(group))
-        && cell.rsplit_once(mark).is_none_or(|(_, decimals)| !decimals.contains(other))
 }
 
 /// The cells of one line.

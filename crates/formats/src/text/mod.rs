@@ -10,6 +10,7 @@ mod grid;
 mod header;
 mod heading;
 mod series;
+mod thousands;
 
 pub use dialect::{Decimal, Dialect, Separator};
 pub use encoding::decode;
