@@ -70,8 +70,8 @@ fn decode_characters(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextE
     }
 }
 
-/// The text of `bytes` in Shift-JIS, where more of its pairs begin as kana and usual kanji do than as letters
-/// with accents of Windows-1252 before others would: these are hardly ever two in a row.
+/// The text of `bytes` in Shift-JIS, where two kana or kanji stand in a row and most of these begin with a
+/// byte that is no letter of Windows-1252: letters with accents hardly ever make such pairs.
 fn japanese(bytes: &[u8]) -> Option<Cow<'_, str>> {
     let text = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes)?;
     let is_kana_or_kanji = |c: &char| matches!(*c, '\u{3041}'..='\u{30fe}' | '\u{4e00}'..='\u{9fff}');

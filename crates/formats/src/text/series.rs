@@ -5,6 +5,7 @@ use super::dialect::{Dialect, Separator, is_comment, is_row, uncommented};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit};
 use super::{TextError, shortened};
+use std::collections::HashMap;
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +84,8 @@ struct Reader<'q, 't, const N: usize> {
     named: &'q Asked<'q, N>,
     block: Option<Block<'t, N>>,
     series: Vec<Series<N>>,
+    /// Places of series by the first one of their block and their label.
+    places: HashMap<(usize, String), usize>,
     skipped: usize,
     /// The last line of words before a header.
     words: Option<(usize, &'t str)>,
@@ -125,6 +128,7 @@ pub fn read_series<const N: usize>(
         named,
         block: None,
         series,
+        places: HashMap::new(),
         skipped: 0,
         words: None,
         declared: Vec::new(),
@@ -324,9 +328,9 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
                 Some(label) => (*label).to_string(),
                 None => format!("{}", first + k + 1),
             };
-            let known = self.series[first..].iter().position(|series| series.label == label);
-            let place = known.map_or(self.series.len(), |k| first + k);
-            if known.is_none() {
+            let end = self.series.len();
+            let place = *self.places.entry((first, label.clone())).or_insert(end);
+            if place == end {
                 self.series.push(Series { label, rows: Vec::new(), lines: Vec::new() });
             }
             self.series[place].rows.push(reading);
