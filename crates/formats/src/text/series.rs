@@ -414,13 +414,16 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     /// Makes one test of those of a column that counts rows: it holds another number in nearly each.
     fn join_counted_rows(&mut self) {
+        if self.series.len() <= 2 {
+            return;
+        }
         let mut rows: Vec<(usize, usize, [f64; N])> = Vec::new();
         for (k, test) in self.series.iter().enumerate() {
             rows.extend(test.lines.iter().zip(&test.rows).map(|(line, row)| (*line, k, *row)));
         }
         rows.sort_by_key(|(line, ..)| *line);
         let changes = rows.windows(2).filter(|two| two[0].0 != two[1].0 && two[0].1 != two[1].1).count();
-        if self.series.len() > 2 && 2 * changes > rows.len() {
+        if 2 * changes > rows.len() {
             let (lines, rows) = rows.into_iter().map(|(line, _, row)| (line, row)).unzip();
             self.series = vec![Series { label: "1".into(), rows, lines }];
         }
