@@ -3,6 +3,7 @@
 use crate::cantilever;
 use crate::dimension::Dimension;
 use crate::text::{Asked, Decimal, Quantity, Series, SeriesTable, TextError, read_series};
+use std::mem::take;
 
 /// Depth and force, m and N, as they were read, one after the other in time.
 pub type Readings = Vec<[f64; 2]>;
@@ -134,6 +135,7 @@ pub fn read_as(
         table.understood += &format!("; the sign of the {} turned", quantity.name);
     }
     join_parts(&mut table);
+    part_tests(&mut table);
     for test in &table.series {
         refuse_lone(test, table.scales)?;
         refuse_negative(test, &table.names, turned)?;
@@ -167,6 +169,67 @@ fn join_parts(table: &mut SeriesTable<2>) {
         table.understood += &format!("; {count} parts joined to {what}");
     }
     table.series = tests;
+}
+
+/// Depth over the largest one before it below which the depth, where it falls at once, begins another test.
+const DEPTH_OF_A_START: f64 = 0.1;
+/// Depth over the largest one before it from which a fall to such a start is none of an elastic unloading.
+const LEAST_FALL: f64 = 0.3;
+/// Such a fall over the median step between readings.
+const FALL_OVER_STEPS: f64 = 5.0;
+
+/// Parts tests that stand below each other with nothing between them: the tool is at the surface at once.
+fn part_tests(table: &mut SeriesTable<2>) {
+    let [test] = &mut table.series[..] else { return };
+    let starts = starts_of_tests(&test.rows);
+    if starts.is_empty() {
+        return;
+    }
+    let lines: Vec<String> = starts.iter().map(|&row| test.lines[row].to_string()).collect();
+    let mut parts: Vec<Series<2>> = Vec::with_capacity(starts.len() + 1);
+    for &start in starts.iter().rev() {
+        let (rows, lines) = (test.rows.split_off(start), test.lines.split_off(start));
+        parts.push(Series { label: String::new(), rows, lines });
+    }
+    parts.push(Series { label: String::new(), rows: take(&mut test.rows), lines: take(&mut test.lines) });
+    parts.reverse();
+    for (number, part) in parts.iter_mut().enumerate() {
+        part.label = (number + 1).to_string();
+    }
+    table.understood += &format!(
+        "; {} tests below each other: the depth begins again at line{} {}",
+        parts.len(),
+        if lines.len() > 1 { "s" } else { "" },
+        lines.join(", ")
+    );
+    table.series = parts;
+}
+
+/// The rows at which another test begins. Depth and force fall there from one row to the next to those of a
+/// start, and go up again by more readings than may stand alone.
+fn starts_of_tests(rows: &[[f64; 2]]) -> Vec<usize> {
+    let mut steps: Vec<f64> = rows.windows(2).map(|two| (two[1][0] - two[0][0]).abs()).collect();
+    steps.sort_by(f64::total_cmp);
+    let step = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+    let (mut starts, mut most, mut since) = (Vec::new(), [0.0_f64; 2], 0);
+    for (row, two) in rows.windows(2).enumerate().map(|(i, two)| (i + 1, two)) {
+        most = [0, 1].map(|k| most[k].max(two[0][k]));
+        let [[before, _], [depth, force]] = [two[0], two[1]];
+        let is_fall = before >= LEAST_FALL * most[0] && before - depth >= FALL_OVER_STEPS * step;
+        let is_start = depth <= DEPTH_OF_A_START * most[0] && force <= DEPTH_OF_A_START * most[1];
+        let goes_up = || {
+            // readings of nothing end at once
+            let goes_on = |two: &[[f64; 2]]| two[1][0] - two[0][0] < LEAST_FALL * most[0];
+            let reaches = |k: usize| rows[row..].iter().any(|next| next[k] >= LEAST_FALL * most[k]);
+            let next = rows.get(row..=row + MOST_LONE).unwrap_or_default();
+            !next.is_empty() && next.windows(2).all(goes_on) && reaches(0) && reaches(1)
+        };
+        if is_fall && is_start && most[0] > 0.0 && row - since > MOST_LONE && goes_up() {
+            starts.push(row);
+            (most, since) = ([0.0; 2], row);
+        }
+    }
+    starts
 }
 
 /// True where `next` begins where `test` ends.

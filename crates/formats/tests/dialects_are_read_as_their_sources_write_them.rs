@@ -247,6 +247,12 @@ fn points() -> Vec<Dialect> {
             "x_um y_um z_nm\n0 0 1\n1 0 2\n2 0 3\n0 1 4\n1 1 No Data\n2 1 6\n",
         ),
         dialect(
+            "a column that says which points are valid",
+            "optical profilometers, scripts",
+            "points.csv",
+            "x_um,y_um,z_nm,Valid\n0,0,1,1\n1,0,2,1\n2,0,3,1\n0,1,4,1\n1,1,-4000,0\n2,1,6,1\n",
+        ),
+        dialect(
             "x and y number the pixels of a camera, whose size stands in the header",
             "Zygo MetroPro and Mx, .xyz",
             "points.xyz",

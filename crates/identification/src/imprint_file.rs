@@ -107,7 +107,7 @@ pub fn read(
         (Ok(read), _) => Ok(read),
         (Err(_), Some(Err(problem))) => Err(problem),
         (Err(no_profile), _) => map(path, radius, reading).map_err(|no_map| {
-            if no_map == UNSAID {
+            if no_map.starts_with(UNSAID) {
                 no_map
             } else {
                 format!("is no profile ({no_profile}), and no map: {no_map}")
@@ -150,8 +150,25 @@ fn centred(points: &[[f64; 2]], radius: f64) -> Option<(Vec<[f64; 2]>, f64)> {
     crosses.then(|| (points.iter().map(|p| [p[0] - middle, p[2]]).collect(), middle))
 }
 
-/// The message on a map of which too little is known.
-const UNSAID: &str = "is a map that does not say its pixel size and the unit of its heights: say them, imprint = { file = …, pixel_size = \"0.5 um\", height_unit = \"nm\" }, or export it in a format that does (.x3p, .sur, .sdf, .gwy), or as a profile r_um,z_um";
+/// How the message on a map begins of which too little is known.
+const UNSAID: &str = "is a map that does not say ";
+
+/// The message on a map whose file does not say its pixel size, the unit of its heights, or both.
+fn unsaid(lacks_pixel: bool, lacks_unit: bool) -> String {
+    let lacking = [
+        (lacks_pixel, "its pixel size", "pixel_size = \"0.5 um\""),
+        (lacks_unit, "the unit of its heights", "height_unit = \"nm\""),
+    ];
+    let lacking = lacking.into_iter().filter(|(is_lacking, ..)| *is_lacking);
+    let (what, keys): (Vec<_>, Vec<_>) = lacking.map(|(_, what, key)| (what, key)).unzip();
+    format!(
+        "{UNSAID}{}: say {}, imprint = {{ file = …, {} }}, or export it in a format that does (.x3p, .sur, .sdf, .gwy), or as a \
+         profile r_um,z_um",
+        what.join(" and "),
+        if what.len() > 1 { "them" } else { "it" },
+        keys.join(", ")
+    )
+}
 
 /// Those of the radial mean of a map.
 fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, String> {
@@ -168,7 +185,10 @@ fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, St
         (Spacing::HeightUnits(pixel), Some(unit)) => Some(pixel.map(|p| p * unit)),
         _ => reading.pixel,
     };
-    let (Some(pixel), Some(unit)) = (pixel, unit) else { return Err(UNSAID.into()) };
+    let (Some(pixel), Some(unit)) = (pixel, unit) else {
+        let in_height_units = matches!(measured.spacing, Spacing::HeightUnits(_));
+        return Err(unsaid(pixel.is_none() && !in_height_units, unit.is_none()));
+    };
     if reading.is_down {
         for z in &mut measured.heights {
             *z = -*z;

@@ -1,5 +1,6 @@
 //! Words before the heights of a text file: size, pixels, units, wavelength.
 
+use super::factor::Factor;
 use super::measured::{ReadError, Request, Spacing};
 use super::names::{
     COLUMNS, HEIGHT, LENGTH, MISSING, OF_HEIGHTS, OF_LENGTHS, OF_NOTHING, OPTICS, ROWS, UNIT, WEAK, WIDTH,
@@ -40,9 +41,8 @@ pub(super) struct Described {
     is_spip: bool,
     /// The number for a point that was not measured.
     missing: Option<f64>,
-    /// A factor of the heights whose meaning is not known, with its line, and true where it can be nothing
-    /// else than a factor.
-    scale: Option<(String, usize, bool)>,
+    /// The first factor of the heights whose meaning is not known.
+    factor: Option<Factor>,
 }
 
 impl Described {
@@ -69,6 +69,8 @@ impl Described {
         }
         said.take_title(&grid.before);
         said.take_list(grid);
+        let sentences = || grid.before.iter().find_map(|(line, text)| Factor::of_sentence(*line, text));
+        said.factor = said.factor.take().or_else(sentences);
         let [x, y] = said.units;
         said.lateral_unit = match (x, y) {
             (Some(x), Some(y)) => Some(x).filter(|_| x == y),
@@ -200,8 +202,8 @@ impl Described {
                 continue;
             }
             self.height_unit = self.height_unit.or(scale);
-            let said = (text.trim().to_string(), *line, true);
-            self.scale = self.scale.take().or(Some(said).filter(|_| has_number));
+            let factor = has_number.then(|| Factor::of_title(*line, &text));
+            self.factor = self.factor.take().or(factor);
         }
     }
 
@@ -250,27 +252,6 @@ impl Described {
 
     /// A mark of missing points, a ratio of sides, a factor of heights.
     fn take_number(&mut self, remark: &Remark) {
-        const FACTORS: [&str; 7] =
-            ["scale", "factor", "faktor", "multiplier", "scaling", "calibration", "kalibrierung"];
-        const STEPS: [&str; 3] = ["lsb", "resolution", "increment"];
-        /// Words of what a whole number is worth, of heights unless of something else.
-        const WORTHS: [&str; 13] = [
-            "gain",
-            "sensitivity",
-            "empfindlichkeit",
-            "sensibilite",
-            "factor",
-            "faktor",
-            "skalierungsfaktor",
-            "facteur",
-            "multiplier",
-            "calibration",
-            "kalibrierung",
-            "digit",
-            "zstep",
-        ];
-        const OTHERS: [&str; 8] = ["x", "y", "xy", "lateral", "pixel", "zoom", "magnification", "camera"];
-        const HEIGHTS: [&str; 7] = ["z", "data", "height", "heights", "value", "values", "vertical"];
         let numbers = remark.numbers(self.decimal);
         let is_whole = |number: &&(f64, Option<String>)| number.0 >= 2.0 && number.0.fract() == 0.0;
         // a line of many numbers holds places
@@ -281,7 +262,6 @@ impl Described {
         }
         let Some((number, rest)) = number_and_unit(&remark.value) else { return };
         let key = remark.key.as_str();
-        let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
         let is_bare =
             rest.trim().is_empty() || rest.trim().starts_with('(') || Dimension::Length.scale(rest).is_some();
         if MISSING.contains(&key) && is_bare {
@@ -290,14 +270,9 @@ impl Described {
             let other =
                 rest.trim().strip_prefix(':').and_then(number_and_unit).map_or(1.0, |(other, _)| other);
             self.aspect = Some(number / other);
-        } else if (has(&FACTORS) || has(&STEPS)) && has(&HEIGHTS) && number != 1.0
-            || ["bit2nm", "lsb"].contains(&key)
-            || has(&WORTHS) && !has(&OTHERS) && number != 1.0
-        {
-            // with a unit it may be a range or a step of the digits
-            let is_factor = has(&FACTORS) && has(&HEIGHTS) && rest.trim().is_empty();
-            let said = (format!("{key} = {}", remark.value), remark.line, is_factor);
-            self.scale = self.scale.take().or(Some(said));
+        } else {
+            let factor = Factor::of_key(remark, number, rest);
+            self.factor = self.factor.take().or(factor);
         }
     }
 
@@ -314,20 +289,8 @@ impl Described {
     ///
     /// # Errors
     /// Such a factor.
-    pub fn refuse_scale(&self, heights: &[f64], request: &Request<'_>) -> Result<(), ReadError> {
-        let Some((said, line, is_factor)) = self.scale.as_ref().filter(|_| !request.override_file) else {
-            return Ok(());
-        };
-        let is_whole = heights.iter().all(|z| !z.is_finite() || z.fract() == 0.0);
-        if !is_factor && !is_whole {
-            return Ok(());
-        }
-        let beside = if is_whole { " beside heights that are whole numbers" } else { "" };
-        let problem = format!(
-            "says \"{said}\"{beside}, and not whether the heights are to be multiplied by it: export them in a unit of length, or \
-             multiply them and delete this line, or set override = true if they are in their unit already"
-        );
-        Err(TextError::new(*line, problem).into())
+    pub fn refuse_factor(&self, heights: &[f64], request: &Request<'_>) -> Result<(), ReadError> {
+        self.factor.as_ref().map_or(Ok(()), |factor| factor.refuse(heights, request))
     }
 
     /// The number of columns that the words name, where each row of the map is broken into several lines of

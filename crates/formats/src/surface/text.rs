@@ -2,6 +2,7 @@
 //! a profile is no map.
 
 use super::axes::{self, Axes};
+use super::beside::{Others, take_invalid};
 use super::described::Described;
 use super::marks;
 use super::measured::{Measured, ReadError, Request, Spacing};
@@ -83,7 +84,7 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
     if let Some(columns) = named_points(&grid, &named)? {
         notes.push(columns.said.clone());
-        return points(grid, &columns, &said, notes);
+        return points(grid, &columns, &said, request, notes);
     }
     let (columns, rows) = (grid.columns, grid.rows());
     if is_xyz && columns < 3 {
@@ -95,13 +96,13 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     if is_xyz || is_points() {
         if let Some(columns) = half_named_points(&grid, &named)? {
             notes.push(columns.said.clone());
-            return points(grid, &columns, &said, notes);
+            return points(grid, &columns, &said, request, notes);
         }
         notes.push("x, y, z from columns 1, 2, 3".into());
         let header = Header { line: 1, text: "", units: None };
         let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..named };
         let columns = header.columns(&grid.dialect, &grid.filled(), &POINT, &named, &[])?;
-        return points(grid, &columns, &said, notes);
+        return points(grid, &columns, &said, request, notes);
     }
     refuse_profile(&grid, request.override_file)?;
     if let Some(Tables { count, size, are_beside }) = grid.parts.filter(|_| !request.override_file) {
@@ -112,12 +113,14 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         );
         return Err(TextError::new(grid.lines[0], problem).into());
     }
+    let others = Others::new(&grid);
     let axes = axes::take(&mut grid)?.unwrap_or_default();
+    others.refuse(grid.columns, request)?;
     if !axes.said.is_empty() {
         notes.push(axes.said.clone());
     }
     notes.extend(said.take_missing(grid.values.iter_mut()));
-    said.refuse_scale(&grid.values, request)?;
+    said.refuse_factor(&grid.values, request)?;
     let (columns, rows) = (grid.columns, grid.rows());
     said.refuse_counts(columns, rows, request)?;
     let (spacing, doubt) = said.spacing([columns, rows], grid.empty_edges);
@@ -224,9 +227,10 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
 
 /// The map through the points whose coordinates stand in `columns`.
 fn points(
-    grid: Grid<'_>,
+    mut grid: Grid<'_>,
     columns: &Columns<3>,
     said: &Described,
+    request: &Request<'_>,
     mut notes: Vec<String>,
 ) -> Result<Measured, ReadError> {
     let picks = columns.picks[0];
@@ -235,6 +239,7 @@ fn points(
         let problem = format!("{} numbers, but the header names more columns", grid.columns);
         return Err(TextError::new(grid.lines[0], problem).into());
     }
+    notes.extend(take_invalid(&mut grid, [place(0), place(1), place(2)]));
     let mut points: Vec<[f64; 3]> = grid
         .values
         .chunks_exact(grid.columns)
@@ -268,6 +273,9 @@ fn points(
         },
         _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
     };
+    if picks[2].scale.is_none() {
+        said.refuse_factor(&placed.heights, request)?;
+    }
     let height_unit = picks[2].scale.or(said.height_unit);
     notes.extend(said.notes(false));
     Ok(Measured {

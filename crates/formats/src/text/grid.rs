@@ -183,7 +183,29 @@ fn beginning<'t>(text: &'t str, dialect: &Dialect) -> Result<(Before<'t>, usize,
         before.push((i + 1, bare));
         at += line.len();
     }
-    Err(TextError::whole("holds no rows of numbers"))
+    Err(no_rows(text, dialect))
+}
+
+/// The message on a text without a row of numbers.
+fn no_rows(text: &str, dialect: &Dialect) -> TextError {
+    // words of a header have few numbers behind them
+    const LEAST_BEHIND_A_LABEL: usize = 3;
+    let is_number = |cell: &str| dialect.number(cell).is_some_and(|value| !value.is_nan());
+    let label = |(i, line): (usize, &str)| {
+        let mut cells = dialect.cells(line);
+        let first = cells.next().map(str::to_string)?;
+        let rest: Vec<&str> = cells.collect();
+        let is_labelled = rest.len() >= LEAST_BEHIND_A_LABEL && rest.iter().all(|cell| is_number(cell));
+        (is_labelled && !is_number(&first)).then_some((i + 1, first))
+    };
+    match text.lines().enumerate().find_map(label) {
+        Some((line, label)) => {
+            let label = shortened(&label);
+            let message = format!("begins with \"{label}\", which is no number: delete the column of labels");
+            TextError::new(line, message)
+        }
+        None => TextError::whole("holds no rows of numbers"),
+    }
 }
 
 /// True of a row that holds the values of the names above it, `nx ny step` above `200 160 1.25`: rows of the

@@ -115,7 +115,7 @@ fn is_unit_of_ratio(text: &str) -> bool {
 }
 
 /// Small letters without accents, words apart by single blanks.
-pub(super) fn folded(text: &str) -> String {
+pub(crate) fn folded(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars().flat_map(char::to_lowercase) {
         match c {

@@ -275,3 +275,36 @@ fn an_empty_first_column_is_none_of_the_map() {
         assert!(grid.describe().contains("empty first cell"), "{}", grid.describe());
     }
 }
+
+/// Exports of several indents into one sheet, one below the other without a number or a word between them.
+#[test]
+fn tests_below_each_other_are_parted_where_the_tool_is_at_the_surface_again() {
+    let test = |peak: i32, residual: f64| -> Vec<[f64; 2]> {
+        let to = f64::from(peak);
+        let back = |i: i32| to - (to - residual) * f64::from(i) / 10.0;
+        (0..=peak)
+            .map(|i| [f64::from(i), f64::from(i * i)])
+            .chain((1..=10).map(|i| [back(i), to * to * (1.0 - f64::from(i) / 10.0)]))
+            .collect()
+    };
+    let text = |tests: &[Vec<[f64; 2]>]| -> String {
+        let rows = tests.iter().flatten().map(|[h, p]| format!("{h}\t{p}\n"));
+        std::iter::once("Depth (nm)\tLoad (uN)\n".to_string()).chain(rows).collect()
+    };
+    let three = text(&[test(40, 34.0), test(38, 31.0), test(41, 36.0)]);
+    let table = indentation::read(&three, COLUMNS, None).unwrap();
+    let counts: Vec<usize> = table.series.iter().map(|test| test.rows.len()).collect();
+    assert_eq!(counts, [51, 49, 52]);
+    assert_eq!(table.series.iter().map(|test| &*test.label).collect::<Vec<_>>(), ["1", "2", "3"]);
+    assert_eq!(table.series[1].lines[0], 53);
+    assert!(table.understood.contains("3 tests below each other"), "{}", table.understood);
+    assert!(table.understood.contains("again at lines 53, 102"), "{}", table.understood);
+    // one test: reloading from the imprint, a way back that is elastic, and zeros where nothing was read
+    let again: Vec<[f64; 2]> = (0..=6).map(|i| [34.0 + f64::from(i), 1600.0 * f64::from(i) / 6.0]).collect();
+    let mut zeros = test(40, 34.0);
+    zeros.splice(45..45, [[0.0; 2]; 3]);
+    for one in [vec![test(40, 34.0), again], vec![test(40, 0.0), test(40, 0.0)], vec![zeros]] {
+        let table = indentation::read(&text(&one), COLUMNS, None);
+        assert!(table.map_or(true, |table| table.series.len() == 1), "{one:?}");
+    }
+}
