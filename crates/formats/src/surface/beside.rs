@@ -16,7 +16,7 @@ const INVALID: [&str; 6] = ["invalid", "masked", "is masked", "missing", "is mis
 fn title(grid: &Grid<'_>) -> Option<(usize, Vec<String>)> {
     let &(line, text) = grid.before.iter().rev().find(|(_, text)| !text.is_empty())?;
     let cells = header_cells(&grid.dialect, uncommented(text), Some(grid.columns));
-    (cells.len() == grid.columns).then(|| (line, cells.into_iter().map(Into::into).collect()))
+    (cells.len() == grid.columns).then_some((line, cells))
 }
 
 /// The name of a column without its number.
@@ -27,8 +27,12 @@ fn stem(name: &str) -> String {
 /// Columns of a map whose names are not like those of all others: `Mean` behind `C1` to `C512`.
 #[derive(Debug, Default)]
 pub(super) struct Others {
-    /// Line of the names, number of columns under them, and those of other names with their place.
-    found: Option<(usize, usize, Vec<(usize, String)>)>,
+    /// Line of the names.
+    line: usize,
+    /// Number of columns under them.
+    count: usize,
+    /// Those of other names, with their place.
+    names: Vec<(usize, String)>,
 }
 
 impl Others {
@@ -47,8 +51,11 @@ impl Others {
             let named = names.iter().zip(&stems).enumerate();
             named.filter(|(_, (name, stem))| alike(stem) < most && !name.trim().is_empty())
         };
-        let others = || others().map(|(k, (name, _))| (k, name.clone())).collect();
-        Others { found: is_map.then(|| (line, names.len(), others())) }
+        if !is_map {
+            return Others::default();
+        }
+        let others = others().map(|(k, (name, _))| (k, name.clone())).collect();
+        Others { line, count: names.len(), names: others }
     }
 
     /// Refuses such columns among `columns` of heights that are left; a first one less was taken as places.
@@ -56,23 +63,21 @@ impl Others {
     /// # Errors
     /// Their names.
     pub fn refuse(&self, columns: usize, request: &Request<'_>) -> Result<(), ReadError> {
-        let Some((line, count, others)) = self.found.as_ref().filter(|_| !request.override_file) else {
-            return Ok(());
-        };
-        let taken = count - columns;
-        let left: Vec<String> = others
+        let taken = self.count.saturating_sub(columns);
+        let left: Vec<String> = self
+            .names
             .iter()
             .filter(|(k, _)| *k >= taken)
             .map(|(_, name)| format!("\"{}\"", shortened(name)))
             .collect();
-        if left.is_empty() {
+        if left.is_empty() || request.override_file {
             return Ok(());
         }
         let problem = format!(
             "names {} beside columns of heights: delete what holds no heights, or set override = true if all of them are heights",
             left.join(", ")
         );
-        Err(TextError::new(*line, problem).into())
+        Err(TextError::new(self.line, problem).into())
     }
 }
 
