@@ -28,9 +28,13 @@ pub struct CurveFile {
     pub understood: String,
 }
 
-/// Plastic strains above it are doubted where the file names no unit: hardly a test reaches them, but
-/// percent do.
-const LARGEST_STRAIN: f64 = 5.0;
+/// Strains above it are doubted where the file names no unit: tests seldom reach them, but percent do.
+const LARGEST_STRAIN: f64 = 1.0;
+
+/// The same under a name by which a share is meant: that of our own files, that of finite elements, that of
+/// forming.
+const LARGEST_SHARE: f64 = 5.0;
+const SHARES: [&str; 3] = [STRAIN.example, "peeq", "umformgrad"];
 
 /// Accumulated plastic strain.
 const STRAIN: Quantity = Quantity {
@@ -148,7 +152,9 @@ impl Columns {
         if let Some(second) = series.first() {
             return Err(TextError::new(second.lines[0], "begins a second curve: keep one in a file"));
         }
-        let largest = points.iter().zip(&lines).find(|(p, _)| p[0] > LARGEST_STRAIN && !have_units[0]);
+        let is_share = SHARES.contains(&name.to_lowercase().as_str());
+        let bound = if is_share { LARGEST_SHARE } else { LARGEST_STRAIN };
+        let largest = points.iter().zip(&lines).find(|(p, _)| p[0] > bound && !have_units[0]);
         if let Some((p, line)) = largest {
             let (kind, key) = (strain.name, strain.example);
             let message = format!(
@@ -341,6 +347,29 @@ mod tests {
             let error = CurveFile::parse(text, MODULUS).unwrap_err();
             assert_eq!(error.line, line, "{text}: {error}");
             assert!(error.message.contains(words), "{text}: {error}");
+        }
+    }
+
+    /// Percent up to 3 were read as shares of 300 %.
+    #[test]
+    fn a_strain_above_one_needs_a_unit_or_a_name_that_means_a_share() {
+        let read =
+            |name: &str| CurveFile::parse(&format!("{name},stress (MPa)\n0,300\n0.2,350\n3,500\n"), MODULUS);
+        for name in ["plastic strain", "Plastische Dehnung", "eps_pl"] {
+            let error = read(name).unwrap_err();
+            assert_eq!(error.line, Some(4), "{error}");
+            for words in ["300 %", "plastic_strain_%", "plastic_strain [1]"] {
+                assert!(error.message.contains(words), "{error}");
+            }
+        }
+        for (name, scale) in [
+            ("plastic_strain", 1.0),
+            ("PEEQ", 1.0),
+            ("Umformgrad", 1.0),
+            ("plastic strain [1]", 1.0),
+            ("plastic strain [%]", 0.01),
+        ] {
+            assert_eq!(read(name).unwrap().points[2], [3.0 * scale, 5e8], "{name}");
         }
     }
 

@@ -50,14 +50,16 @@ const MISSING_FROM: f64 = 1e37;
 
 /// Words that mean that nothing was measured.
 fn is_missing_word(word: &str) -> bool {
-    const WORDS: [&str; 19] = [
+    const WORDS: [&str; 18] = [
         "", "bad", "-", "--", "---", "na", "n/a", "#n/a", "#nv", "no data", "nodata", "null", "none", "void",
-        "missing", "invalid", "masked", "?", "#value!",
+        "missing", "invalid", "masked", "?",
     ];
     let word = word.to_ascii_lowercase();
     let number = word.trim_start_matches(['-', '+']);
     WORDS.contains(&word.as_str())
         || word.bytes().all(|b| b == b'*')
+        // errors of a spreadsheet, in any language: #NUM!, #WERT!, #NOM?
+        || word.len() > 2 && word.starts_with('#') && word.ends_with(['!', '?'])
         || ["nan", "inf", "infinity"].contains(&number)
         || number.starts_with("nan(")
         || ["1.#", "1,#"].iter().any(|start| number.starts_with(start))

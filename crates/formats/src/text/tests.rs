@@ -287,7 +287,7 @@ fn rows_of_numbers_are_read_in_every_dialect() {
 /// The mask of a round aperture: whole rows at the edge of the map and the beginnings of others are missing.
 #[test]
 fn a_masked_map_keeps_its_rows_at_the_edge() {
-    for word in ["nan", "***", "Bad", "N/A", "#NV"] {
+    for word in ["nan", "***", "Bad", "N/A", "#NV", "#NUM!", "#NOM?"] {
         for separator in [",", ";", "\t"] {
             let row = |cells: [&str; 3]| {
                 let many = [vec![cells[0]; 80], vec![cells[1]; 20], vec![cells[2]; 80]].concat();
