@@ -94,7 +94,7 @@ impl Measured {
         let loading = envelope(&readings[..=first], &mut notes);
         if loading.len() < MIN_LOADING_POINTS {
             return Err(format!(
-                "goes nowhere: only {} points before its largest force lie deeper than those before them; the loading must come first and needs {MIN_LOADING_POINTS}",
+                "goes nowhere: only {} points before its largest force lie deeper than those before them; the loading must come first and needs {MIN_LOADING_POINTS} (an unloading that stands as a test of its own belongs below the loading, under the same header)",
                 loading.len()
             ));
         }

@@ -50,9 +50,9 @@ const MISSING_FROM: f64 = 1e37;
 
 /// Words that mean that nothing was measured.
 fn is_missing_word(word: &str) -> bool {
-    const WORDS: [&str; 18] = [
-        "", "bad", "-", "--", "---", "na", "n/a", "#n/a", "#nv", "no data", "nodata", "null", "none", "void",
-        "missing", "invalid", "masked", "?",
+    const WORDS: [&str; 19] = [
+        "", "bad", "-", "--", "---", "na", "n/a", "n.a.", "#n/a", "#nv", "no data", "nodata", "null", "none",
+        "void", "missing", "invalid", "masked", "?",
     ];
     let word = word.to_ascii_lowercase();
     let number = word.trim_start_matches(['-', '+']);
@@ -88,6 +88,11 @@ pub(super) fn looks_like_number(word: &str) -> bool {
         && !word.starts_with(['e', 'E', 'd', 'D'])
 }
 
+/// True of a cell that can be nothing but a number, however its decimals are written.
+pub(super) fn is_written_as_number(cell: &str) -> bool {
+    looks_like_number(cell) && !is_date(cell)
+}
+
 /// True of a row of numbers: at least half of its words are numbers, and it begins with one or with a word
 /// that means that there is none. A row of several such words alone is one too: the edge of a masked map.
 pub(super) fn is_row(line: &str) -> bool {
@@ -100,6 +105,10 @@ pub(super) fn is_row(line: &str) -> bool {
     let is_pair = is_word && !first.to_ascii_lowercase().starts_with("nan") && words.clone().count() == 2;
     let starts = !is_pair && (looks_like_number(first) || !first.is_empty() && is_missing_word(first));
     if !starts && (is_pair || !line.to_ascii_lowercase().starts_with("no data")) {
+        return false;
+    }
+    // "1 _ 1" is a title
+    if words.clone().take(64).any(|word| word == "_") {
         return false;
     }
     let (mut numbers, mut missing, mut others) = (0, 0, 0);

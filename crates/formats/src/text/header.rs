@@ -1,8 +1,8 @@
 //! The line that names columns, and the columns that are wanted of it.
 
 use super::declared_unit::DeclaredUnit;
-use super::dialect::{Decimal, Dialect, Separator};
-use super::heading::{Heading, Quantity, folded};
+use super::dialect::{Decimal, Dialect, Separator, is_row};
+use super::heading::{Heading, Quantity, folded, unbracketed};
 use super::{TextError, shortened};
 use crate::dimension::Dimension;
 use crate::units::conversion;
@@ -185,7 +185,12 @@ impl<'t> Header<'t> {
         };
         let units = self.units.map(|text| cells_of(text).into_iter().map(unit).collect::<Vec<_>>());
         self.refuse_nameless(&cells, filled, named)?;
-        let mut heads = Heading::list(&cells, &units.unwrap_or_default(), filled);
+        let units = units.unwrap_or_default();
+        // cells with units of their own are in those
+        if self.units.is_some_and(|line| !is_row(line.trim())) {
+            self.refuse_other_units(&cells, &units, wanted)?;
+        }
+        let mut heads = Heading::list(&cells, &units, filled);
         self.declare(&mut heads, wanted, declared)?;
         let mut found: Vec<Vec<Pick>> = Vec::new();
         let mut said = Vec::new();
@@ -260,6 +265,30 @@ impl<'t> Header<'t> {
             filled.len()
         );
         Err(TextError::new(self.line, message))
+    }
+
+    /// Refuses `units` below names that have others.
+    fn refuse_other_units(
+        &self,
+        cells: &[String],
+        units: &[String],
+        wanted: &[Quantity],
+    ) -> Result<(), TextError> {
+        for (cell, below) in cells.iter().zip(units) {
+            let (Some(own), below) = (Heading::new(cell).unit, unbracketed(below)) else { continue };
+            let scales = |quantity: &Quantity| {
+                Some((quantity.dimension.scale(&own)?, quantity.dimension.scale(below)?))
+            };
+            let other =
+                wanted.iter().find_map(scales).filter(|(own, below)| (own / below - 1.0).abs() > 1e-9);
+            if other.is_some() {
+                let name = shortened(cell);
+                let message =
+                    format!("\"{name}\" is in {own}, but the unit below it is {below}: correct one of them");
+                return Err(TextError::new(self.line, message));
+            }
+        }
+        Ok(())
     }
 
     /// Gives `heads` without a unit the one that was declared for them.

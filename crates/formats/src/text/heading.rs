@@ -101,12 +101,34 @@ const OF_ENGINEERS: [&str; 15] = [
 ];
 
 /// Words that make a function of a depth or a force; strains are logarithmic.
-const FUNCTIONS: [&str; 9] = ["sqrt", "√", "squared", "ln", "lg", "log10", "delta", "δ", "inverse"];
+const FUNCTIONS: [&str; 16] = [
+    "sqrt",
+    "√",
+    "squared",
+    "ln",
+    "lg",
+    "log10",
+    "delta",
+    "δ",
+    "inverse",
+    "increment",
+    "normalized",
+    "normalised",
+    "normiert",
+    "normalise",
+    "hmax",
+    "pmax",
+];
 
 /// True where a text is the unit of something.
 pub(super) fn is_unit(text: &str) -> bool {
     let is_of = |dimension: &Dimension| dimension.scale(text).is_some();
     [Dimension::Length, Dimension::Force, Dimension::Stress].iter().any(is_of) || is_unit_of_ratio(text)
+}
+
+/// A unit without the brackets about it.
+pub(super) fn unbracketed(unit: &str) -> &str {
+    unit.trim_matches(['(', ')', '[', ']', '{', '}']).trim()
 }
 
 /// True of a unit of ratios that is more than a number or a dash.
@@ -166,7 +188,7 @@ impl Heading {
 
     /// The head with the `unit` of another cell, in brackets or not, where it has none of its own.
     fn in_unit(mut self, unit: Option<&String>) -> Heading {
-        let bare = unit.map(|unit| unit.trim_matches(['(', ')', '[', ']', '{', '}']).trim().to_string());
+        let bare = unit.map(|unit| unbracketed(unit).to_string());
         self.unit =
             self.unit.or(bare.filter(|unit| !unit.is_empty()).map(|unit| with_case(&self.text, &unit)));
         self
@@ -202,9 +224,12 @@ impl Heading {
         if has(&["raw", "uncorrected", "unkorrigiert", "roh", "brut"]) {
             return Some(rank + RANK_OF_RAW);
         }
-        // that of the sample beside that of the drive is asked about
-        let ends = ["into surface", "on sample", "sample displacement", "corrected", "korrigiert"];
-        Some(if doubt == 0 && ends.iter().any(|end| self.name.ends_with(end)) { 0 } else { rank })
+        // that of the sample beside that of the drive is asked about, and so is one with less in it
+        let ends = ["into surface", "on sample", "sample displacement", "from preload", "above surface"];
+        let is_of_curve = matches!(quantity.dimension, Dimension::Length | Dimension::Force);
+        let is_less = is_of_curve && has(&["corrected", "korrigiert", "corrige", "corrigee", "net", "true"]);
+        let is_asked = is_less || ends.iter().any(|end| self.name.ends_with(end));
+        Some(if doubt == 0 && is_asked { 0 } else { rank })
     }
 
     /// The reason why the name is not taken for `quantity` as it stands, with a way out.
@@ -244,13 +269,13 @@ impl Heading {
         ))
     }
 
-    /// A factor in the name: `x 10` of "Load x 10 (mN)".
+    /// A factor in the name or behind the unit: `x 10` of "Load x 10 (mN)", `/10` of "Load (mN) /10".
     fn factor(&self) -> Option<String> {
-        let outside = self.text.split(['(', '[', '{']).next()?.to_lowercase();
+        let outside = unit_apart(&self.text).to_lowercase();
         let words: Vec<&str> = outside.split_whitespace().collect();
         let is_digit = |c: char| c.is_ascii_digit();
         let starts = |word: &str| word.starts_with(is_digit);
-        let signs = ['x', '×', '*', '·'];
+        let signs = ['x', '×', '*', '·', '/', '÷', '^'];
         let is_factor = |i: usize| {
             let word = words[i];
             let after = words.get(i + 1).is_some_and(|next| starts(next));
@@ -266,7 +291,7 @@ impl Heading {
 
     /// The rank of the name, whatever it says of corrections.
     fn bare_rank(&self, quantity: &Quantity) -> Option<u8> {
-        const OTHERS: [&str; 17] = [
+        const OTHERS: [&str; 20] = [
             "lateral",
             "tangential",
             "transverse",
@@ -284,6 +309,9 @@ impl Heading {
             "energy",
             "sd",
             "stdev",
+            "max",
+            "maximum",
+            "maximale",
         ];
         /// Names that other quantities have too: a simulation calls what its contact law lets overlap so.
         const WEAK: [&str; 1] = ["penetration"];
@@ -314,6 +342,13 @@ impl Heading {
             None
         }
     }
+}
+
+/// The head `text` with a blank in place of what stands in brackets.
+fn unit_apart(text: &str) -> String {
+    let open = text.find(['(', '[', '{']).unwrap_or(text.len());
+    let behind = text[open..].find([')', ']', '}']).map_or("", |close| &text[open + close + 1..]);
+    format!("{} {behind}", &text[..open])
 }
 
 /// The `unit` of the head `text`: in one of words in capitals alone MN is mN.

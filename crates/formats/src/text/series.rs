@@ -1,11 +1,13 @@
 //! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
 
 use super::declared_unit::{DeclaredUnit, speaks_of_units};
-use super::dialect::{Dialect, Separator, is_comment, is_row, uncommented};
+use super::dialect::{Dialect, Separator, is_comment, is_row, is_written_as_number, uncommented};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
-use super::heading::{Quantity, folded, folded_name, is_unit};
+use super::heading::{Quantity, folded, folded_name, is_unit, unbracketed};
 use super::{TextError, shortened};
 use std::collections::HashMap;
+
+mod no_readings;
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,11 +188,14 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
                 self.begin(header);
                 return Ok(());
             }
-            if let Some(block) =
-                self.block.as_mut().filter(|b| b.columns.is_none() && b.header.units.is_none())
-                && header_cells(&self.dialect, text, None).iter().any(|cell| is_unit(cell))
+            let waiting = self.block.as_mut().filter(|block| block.columns.is_none());
+            if let Some(block) = waiting
+                && header_cells(&self.dialect, text, None).iter().any(|cell| is_unit(unbracketed(cell)))
             {
-                block.header.units = Some(text);
+                let units = *block.header.units.get_or_insert(text);
+                if units.trim() != bare {
+                    return Err(TextError::new(line, "is a second line of units below the names: keep one"));
+                }
                 return Ok(());
             }
         }
@@ -280,17 +285,19 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         self.block = Some(Block { header, columns: None, first, has_plain_rows: false, end: None });
     }
 
-    /// The columns of `header` above its first row of numbers; `None` where `row` holds none.
+    /// The columns of `header` above its first row of numbers, the line `text`; `None` where `row` holds none.
     fn columns_above(
         &self,
         header: &Header<'_>,
-        text: &str,
+        (line, text): (usize, &str),
         row: &[&str],
     ) -> Result<Option<Columns<N>>, TextError> {
         let measured: Vec<_> = row.iter().map(|cell| self.dialect.measured(cell)).collect();
         let filled: Vec<bool> = measured.iter().map(|cell| cell.is_some_and(|(v, _)| !v.is_nan())).collect();
         if !filled.contains(&true) {
-            return Ok(None);
+            let written_otherwise = row.iter().find(|cell| is_written_as_number(cell));
+            return written_otherwise
+                .map_or(Ok(None), |cell| Err(TextError::new(line, self.dialect.refuse(cell))));
         }
         let has_units = measured.iter().flatten().any(|(_, unit)| unit.is_some());
         let units = header.units.or(Some(text).filter(|_| has_units));
@@ -305,7 +312,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         };
         let row: Vec<&str> = self.dialect.cells(text).collect();
         let columns = match columns {
-            None => self.columns_above(&header, text, &row)?,
+            None => self.columns_above(&header, (line, text), &row)?,
             known => known,
         };
         let Some(columns) = columns else {
@@ -313,8 +320,16 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             self.block = Some(Block { header, columns, first, has_plain_rows, end });
             return Ok(());
         };
-        let more = row.get(columns.width..).is_some_and(|more| more.iter().any(|cell| !cell.is_empty()));
-        if more && self.dialect.separator == Separator::Mark(',') {
+        let more = row.get(columns.width..).and_then(|more| more.iter().find(|cell| !cell.is_empty()));
+        if let Some(cell) = more.filter(|cell| !is_written_as_number(cell))
+            && self.dialect.separator == Separator::Mark(',')
+        {
+            let cell = shortened(cell);
+            let message =
+                format!("has \"{cell}\" beyond the columns of the header: give them a name, or delete it");
+            return Err(TextError::new(line, message));
+        }
+        if more.is_some() && self.dialect.separator == Separator::Mark(',') {
             let message = format!(
                 "has {} cells below {} of the header: a decimal comma needs columns that semicolons or tabs part; else give every column a name",
                 row.len(),
@@ -369,6 +384,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             return Ok(Some(std::array::from_fn(si)));
         }
         let find = |test: fn(&Option<f64>) -> bool| (0..N).find(|i| test(&values[*i])).map(|i| cells[i]);
+        self.refuse_lost(line, row, picks, &values)?;
         match (find(Option::is_none), find(|v| v.is_none_or(f64::is_nan))) {
             (Some(word), _) if count > 0 => Err(TextError::new(line, self.dialect.refuse(word))),
             (None, Some(cell)) if count > 0 && self.named.needs_all => {
@@ -383,6 +399,35 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
                 Ok(None)
             }
         }
+    }
+
+    /// Refuses a row of numbers that would be left out without a word: its cells are written otherwise than
+    /// those of the rest, or there are fewer of them than columns.
+    ///
+    /// # Errors
+    /// Such a row.
+    fn refuse_lost(
+        &self,
+        line: usize,
+        row: &[&str],
+        picks: &[Pick; N],
+        values: &[Option<f64>; N],
+    ) -> Result<(), TextError> {
+        let cell = |i: usize| row.get(picks[i].column).copied();
+        let is_lost = |i: &usize| values[*i].is_none() && cell(*i).is_some_and(is_written_as_number);
+        if let Some(cell) = (0..N).find(is_lost).and_then(cell) {
+            return Err(TextError::new(line, self.dialect.refuse(cell)));
+        }
+        let has_number = (0..N).any(|i| cell(i).is_some() && values[i].is_some_and(|v| !v.is_nan()));
+        if let Some(end) = picks.iter().map(|pick| pick.column + 1).find(|end| has_number && *end > row.len())
+        {
+            let message = format!(
+                "has {} of at least {end} columns: correct it, or write nan where nothing was measured",
+                row.len()
+            );
+            return Err(TextError::new(line, message));
+        }
+        Ok(())
     }
 
     fn finish(mut self, text: &str) -> Result<SeriesTable<N>, TextError> {
@@ -427,71 +472,5 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             let (lines, rows) = rows.into_iter().map(|(line, _, row)| (line, row)).unzip();
             self.series = vec![Series { label: "1".into(), rows, lines }];
         }
-    }
-
-    /// The number of largest size in each column of the rows, as it is written.
-    fn most_of_columns(&self, text: &str) -> Vec<String> {
-        let mut most: Vec<(f64, &str)> = Vec::new();
-        for line in text.lines().filter(|line| is_row(line.trim())) {
-            for (i, cell) in self.dialect.cells(line).enumerate() {
-                let size = self.dialect.number(cell).map_or(0.0, f64::abs);
-                match most.get_mut(i) {
-                    Some(known) if size > known.0 => *known = (size, cell),
-                    Some(_) => {}
-                    None => most.push((size, cell)),
-                }
-            }
-        }
-        most.into_iter().filter(|(_, cell)| !cell.is_empty()).map(|(_, cell)| cell.to_string()).collect()
-    }
-
-    /// The reason why there are no readings.
-    fn nothing(&self, text: &str) -> TextError {
-        if let Some(block) = &self.block {
-            let message = "is a header without readings below it: give a row of numbers for each reading";
-            return TextError::new(block.header.line, message);
-        }
-        let list = |part: fn(&Quantity) -> &str, between| {
-            self.wanted.iter().map(part).collect::<Vec<_>>().join(between)
-        };
-        let asked: Vec<String> =
-            self.named.columns.iter().flatten().map(|name| format!("\"{name}\"")).collect();
-        let mut message = if text.trim().is_empty() {
-            format!("is empty: begin it with a line like {}", list(|q| q.example, ","))
-        } else if asked.is_empty() {
-            format!(
-                "has no header that names a {} with their units: write a first line like {}",
-                list(|q| q.name, " and a "),
-                list(|q| q.example, ",")
-            )
-        } else {
-            format!("has no header with the columns {}", asked.join(" and "))
-        };
-        let lines = || text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let title = lines().take_while(|(_, line)| !is_row(line.trim())).last();
-        if let (Some(key), Some((_, title))) = (self.named.key, title) {
-            let cells = header_cells(&self.dialect, title, None);
-            let cells: Vec<String> = cells.iter().take(12).map(|c| format!("\"{}\"", shortened(c))).collect();
-            let keys = list(|q| q.name, " = \"…\", ");
-            message +=
-                &format!(", or say which of {} they are: {key} = {{ {keys} = \"…\" }}", cells.join(", "));
-        }
-        if let (Some(key), None) = (self.named.key, title) {
-            let most = self.most_of_columns(text);
-            // which of more columns than are wanted is which cannot be guessed
-            let is_open = most.len() > N;
-            let one = |(i, q): (usize, &Quantity)| {
-                let unit = q.example.rsplit('_').next().unwrap_or("");
-                let number = if is_open { "NUMBER".to_string() } else { format!("{}", i + 1) };
-                format!("{} = \"{number} [{unit}]\"", q.name)
-            };
-            let keys: Vec<String> = self.wanted.iter().enumerate().map(one).collect();
-            let reach = if is_open { format!(" (they reach {})", most.join(", ")) } else { String::new() };
-            message += &format!(
-                ", or say which columns they are, by number and unit: {key} = {{ {} }}{reach}",
-                keys.join(", ")
-            );
-        }
-        TextError { line: title.or_else(|| lines().next()).map(|(i, _)| i + 1), message }
     }
 }

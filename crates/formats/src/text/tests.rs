@@ -4,6 +4,7 @@ use super::*;
 use crate::indentation;
 
 mod apart;
+mod lost;
 
 const COLUMNS: [Option<&str>; 2] = [None; 2];
 
