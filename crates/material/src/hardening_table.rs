@@ -147,6 +147,10 @@ fn check_point(before: Option<[f64; 2]>, [strain, stress]: [f64; 2]) -> Result<(
             "the plastic strain must start at 0, not at {strain}: the first point is first yield (plastic strain is total strain less stress over Young's modulus)"
         )),
         None => Ok(()),
+        // of another temperature or rate
+        Some([last, _]) if strain == 0.0 && last > 0.0 => Err(format!(
+            "the plastic strain is 0 again after {last}: a second curve begins here; keep one in a file"
+        )),
         Some([last, _]) if !(strain > last && strain.is_finite()) => Err(format!(
             "the plastic strain must grow from point to point, but {strain} follows {last}: sort the points and keep one of those with equal strain"
         )),
@@ -217,6 +221,7 @@ mod tests {
             (&[][..], None, "from 1 to 100000 points, not 0"),
             (&[[0.01, 1.0]], Some(0), "must start at 0, not at 0.01"),
             (&[[0.0, 1.0], [0.1, 2.0], [0.1, 3.0]], Some(2), "0.1 follows 0.1"),
+            (&[[0.0, 1.0], [0.1, 2.0], [0.0, 3.0]], Some(2), "a second curve begins here"),
             (&[[0.0, 1.0], [0.1, 2.0], [0.2, 1.9]], Some(2), "1.9 follows 2"),
             (&[[0.0, 0.0]], Some(0), "above 0, not 0"),
             (&[[0.0, 1.0], [0.1, f64::NAN]], Some(1), "not NaN"),

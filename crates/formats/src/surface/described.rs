@@ -3,7 +3,8 @@
 use super::factor::Factor;
 use super::measured::{ReadError, Request, Spacing};
 use super::names::{
-    COLUMNS, HEIGHT, LENGTH, MISSING, OF_HEIGHTS, OF_LENGTHS, OF_NOTHING, OPTICS, ROWS, UNIT, WEAK, WIDTH,
+    COLUMNS, HEIGHT, LENGTH, MISSING, OF_HEIGHTS, OF_LENGTHS, OF_NOTHING, OF_THE_CAMERA, RESOLUTION, ROWS,
+    UNIT, WIDTH,
 };
 use super::remark::{Remark, has_decimal_comma, number_and_unit};
 use super::sides::{Sides, quoted};
@@ -80,17 +81,13 @@ impl Described {
             said.lateral_unit = said.lateral_unit.or(Some(1e-9));
         }
         for remark in &remarks {
-            said.take_length(remark, false);
+            said.take_length(remark);
             said.take_count(remark);
             said.take_number(remark);
         }
-        if said.sides.is_empty() && said.bare.is_empty() {
-            // that of the optics is no pixel
-            let is_weak = |r: &&Remark| {
-                WEAK.contains(&r.key.as_str())
-                    && !OPTICS.iter().any(|word| r.text.to_lowercase().contains(word))
-            };
-            remarks.iter().filter(is_weak).for_each(|r| said.take_length(r, true));
+        let resolution = remarks.iter().find(|r| RESOLUTION.contains(&r.key.as_str()));
+        if let Some(remark) = resolution.filter(|_| said.sides.is_empty() && said.bare.is_empty()) {
+            said.bare.doubt(remark, "may be the resolution of the optics or the pixel");
         }
         if let (Some(width), Some(length)) = sides[1]
             && length < width
@@ -201,15 +198,20 @@ impl Described {
             if !is_title || scale.is_none() || has_number && bare.contains(marks) {
                 continue;
             }
-            self.height_unit = self.height_unit.or(scale);
+            // a unit of heights goes before one of anything
+            if self.height_unit.is_none() || !self.is_of_heights {
+                (self.height_unit, self.is_of_heights) = (scale, true);
+            }
             let factor = has_number.then(|| Factor::of_title(*line, &text));
             self.factor = self.factor.take().or(factor);
         }
     }
 
-    fn take_length(&mut self, remark: &Remark, is_weak: bool) {
+    fn take_length(&mut self, remark: &Remark) {
         let key = remark.key.as_str();
-        if !is_weak && !Sides::is_side(key) && !LENGTH.contains(&key) {
+        let text = remark.text.to_lowercase();
+        let is_other = OF_THE_CAMERA.iter().any(|word| text.contains(word));
+        if is_other || !Sides::is_side(key) && !LENGTH.contains(&key) {
             return;
         }
         let numbers = remark.numbers(self.decimal);
@@ -225,10 +227,8 @@ impl Described {
         }
         let lengths: Option<Vec<f64>> = remark.lengths(&numbers, self.lateral_unit).into_iter().collect();
         match lengths {
-            Some(lengths) if !lengths.is_empty() => {
-                self.sides.take(remark, &lengths, self.has_length[0], is_weak)
-            }
-            _ => self.bare.take(remark, &remark.bare_numbers(&numbers), self.has_length[1], is_weak),
+            Some(lengths) if !lengths.is_empty() => self.sides.take(remark, &lengths, self.has_length[0]),
+            _ => self.bare.take(remark, &remark.bare_numbers(&numbers), self.has_length[1]),
         }
     }
 

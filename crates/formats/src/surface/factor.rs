@@ -18,7 +18,7 @@ pub(super) struct Factor {
 const FACTORS: [&str; 7] =
     ["scale", "factor", "faktor", "multiplier", "scaling", "calibration", "kalibrierung"];
 /// Names of a step.
-const STEPS: [&str; 3] = ["lsb", "resolution", "increment"];
+const STEPS: [&str; 4] = ["lsb", "resolution", "increment", "step"];
 /// Words of what a whole number is worth, of heights unless of something else.
 const WORTHS: [&str; 13] = [
     "gain",
@@ -38,8 +38,10 @@ const WORTHS: [&str; 13] = [
 /// What is none of the heights.
 const OTHERS: [&str; 8] = ["x", "y", "xy", "lateral", "pixel", "zoom", "magnification", "camera"];
 /// Names of the heights.
-const HEIGHTS: [&str; 11] =
-    ["z", "data", "height", "heights", "hohe", "hohen", "wert", "werte", "value", "values", "vertical"];
+const HEIGHTS: [&str; 12] = [
+    "z", "digital", "data", "height", "heights", "hohe", "hohen", "wert", "werte", "value", "values",
+    "vertical",
+];
 /// Names of a whole number.
 const COUNTS: [&str; 9] = ["count", "counts", "digit", "digits", "lsb", "bit", "level", "code", "inkrement"];
 /// Words that say what is to be done.
@@ -56,8 +58,11 @@ impl Factor {
         let key = remark.key.as_str();
         let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
         let is_unit = key == "unit" && number != 1.0 && Dimension::Length.scale(rest.trim()).is_some();
-        let is_one = (has(&FACTORS) || has(&STEPS)) && has(&HEIGHTS) && number != 1.0
+        // 1 nm may be the worth of a whole number
+        let is_other_than_one = number != 1.0 || !rest.trim().is_empty();
+        let is_one = (has(&FACTORS) || has(&STEPS)) && has(&HEIGHTS) && is_other_than_one
             || ["bit2nm", "lsb"].contains(&key)
+            || ["scale", "scaling"].contains(&key) && number != 1.0
             || has(&WORTHS) && !has(&OTHERS) && number != 1.0;
         // with a unit it may be a range or a step of the digits
         let is_factor = is_unit || has(&FACTORS) && has(&HEIGHTS) && rest.trim().is_empty();

@@ -124,10 +124,11 @@ pub(super) const ALONG_A_LINE: &[&str] = &[
     "schrittweite",
     "increment",
 ];
-/// Names of what may be the optics' limit as well as the pixel: taken where nothing else tells the pixel.
-pub(super) const WEAK: &[&str] = &["lateral resolution", "resolution laterale", "camera resolution"];
-/// Words that make it that of the optics.
-pub(super) const OPTICS: &[&str] = &["optic", "optisch", "abbe", "rayleigh", "sparrow", "diffraction"];
+/// Names of what may be the limit of the optics as well as the pixel.
+pub(super) const RESOLUTION: &[&str] =
+    &["lateral resolution", "resolution laterale", "laterale auflosung", "camera resolution"];
+/// Words that make a distance that on the camera, or one of heights.
+pub(super) const OF_THE_CAMERA: &[&str] = &["camera", "kamera", "sensor", "ccd", "(z)", "[z]"];
 pub(super) const X: &[&str] =
     &["x", "dx", "δx", "pixel width", "delta x", "pas x", "xpixelsize", "x increment", "x scale", "scale x"];
 pub(super) const Y: &[&str] = &[

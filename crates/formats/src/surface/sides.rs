@@ -1,6 +1,6 @@
 //! Sides of a map and of its pixels, as the words before the heights claim them.
 
-use super::names::{ALONG_A_LINE, HEIGHT, LENGTH, PIXEL, SIZE, WEAK, WIDTH, X, Y};
+use super::names::{ALONG_A_LINE, HEIGHT, LENGTH, PIXEL, SIZE, WIDTH, X, Y};
 use super::remark::Remark;
 use crate::text::shortened;
 
@@ -66,7 +66,7 @@ impl Sides {
     }
 
     /// Takes what the key of `remark` names.
-    pub fn take(&mut self, remark: &Remark, lengths: &[f64], has_length: bool, is_weak: bool) {
+    pub fn take(&mut self, remark: &Remark, lengths: &[f64], has_length: bool) {
         let key = remark.key.as_str();
         let Some(&first) = lengths.first() else { return };
         let is_else = |axis| axis == 1 && lengths.len() == 1 && ALONG_A_LINE.contains(&key);
@@ -74,9 +74,7 @@ impl Sides {
             let said = quoted(remark);
             self.claims.push(Claim { axis, is_step, is_else: is_else(axis), length, said });
         };
-        let is_pixel = PIXEL.contains(&key) && !is_weak || WEAK.contains(&key) && is_weak;
-        match (is_pixel, lengths) {
-            _ if is_weak && !is_pixel => {}
+        match (PIXEL.contains(&key), lengths) {
             (true, [_] | [_, _]) => {
                 set(0, true, first);
                 set(1, true, lengths.get(1).copied().unwrap_or(first));

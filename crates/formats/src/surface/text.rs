@@ -186,6 +186,9 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
     Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?))
 }
 
+/// First words of a column that counts rows.
+const ROW: [&str; 6] = ["row", "line", "zeile", "ligne", "riga", "fila"];
+
 /// The columns of a header that calls the first two x and y, and the third by a name that z may have.
 ///
 /// # Errors
@@ -213,12 +216,19 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
         None => {
             let names: Vec<String> =
                 cells.iter().take(3).map(|cell| format!("\"{}\"", shortened(cell))).collect();
+            let first = folded_name(&cells[0]).0;
+            let [x, y, z] = match first.split(' ').next().unwrap_or("") {
+                // y counts rows
+                word if ROW.contains(&word) => [1, 0, 2],
+                word if OF_HEIGHTS.contains(&word) => [1, 2, 0],
+                _ => [0, 1, 2],
+            };
             let problem = format!(
                 "names the columns {}, and not which are x, y and z (a depth points down): say columns = {{ x = {}, y = {}, z = {} }}",
                 names.join(", "),
-                names[0],
-                names[1],
-                names[2]
+                names[x],
+                names[y],
+                names[z]
             );
             Err(TextError::new(line, problem).into())
         }

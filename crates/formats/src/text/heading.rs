@@ -212,7 +212,17 @@ impl Heading {
             let own = |i: usize| beside(i).filter(|_| is_empty(i));
             cells.iter().enumerate().map(|(i, cell)| Heading::new(cell).in_unit(own(i))).collect()
         };
-        heads.into_iter().enumerate().map(|(i, head)| head.in_unit(units.get(i))).collect()
+        let mut heads: Vec<Heading> =
+            heads.into_iter().enumerate().map(|(i, head)| head.in_unit(units.get(i))).collect();
+        // beside UM and NM, MN is mN
+        let has_unit =
+            |head: &Heading, names: &[&str]| head.unit.as_deref().is_some_and(|u| names.contains(&u));
+        if heads.iter().any(|head| has_unit(head, &["UM", "NM"])) {
+            for head in heads.iter_mut().filter(|head| has_unit(head, &["MN"])) {
+                head.unit = Some("mN".into());
+            }
+        }
+        heads
     }
 
     /// Rank of the name as one of `quantity`: 0 best.

@@ -347,7 +347,18 @@ impl SurfaceScene {
             Spacing::Metres(p) => Some(p),
             Spacing::HeightUnits(p) => Some(p.map(|v| v * unit)),
         };
-        let pixel = match (said, self.pixel_size.map(|p| p.map(|l| l.0))) {
+        let asked = self.pixel_size.map(|p| p.map(|l| l.0));
+        // without a unit they tell how long a pixel is for its width
+        if let (Spacing::Numbers([x, y]), Some([a, b])) = (&measured.spacing, asked)
+            && !(self.override_file || same_step(x / y, a / b))
+        {
+            let message = format!(
+                "the file has pixels of {x} x {y} in a unit that it does not name, and the scene other sides: give both, \
+                 pixel_size = [\"{x} um\", \"{y} um\"] (or nm, mm, m, whichever it is), or set override = true"
+            );
+            return error("surface.pixel_size", message);
+        }
+        let pixel = match (said, asked) {
             (Some([x, y]), Some([a, b])) if !(self.override_file || same_step(x, a) && same_step(y, b)) => {
                 let [x, y, a, b] = [x, y, a, b].map(|side| rounded(side * 1e6, 7));
                 let message = format!(

@@ -124,6 +124,16 @@ fn units_and_pixels_are_demanded_and_contradictions_refused() {
     std::fs::write(resolve(Path::new("z.asc")), text).unwrap();
     let bare = surface(&format!("file = \"z.asc\"\n{unit}")).prepare(resolve).err().unwrap().to_string();
     assert!(bare.contains("0.5 x 0.5 apart") && bare.contains("pixel_size = \"0.5 um\""), "{bare}");
+    // sides in a unit that is not named tell their ratio
+    std::fs::write(resolve(Path::new("xy.asc")), text.replace("cellsize 0.5", "dx 1.5\ndy 2")).unwrap();
+    let sides = |pixel: &str| {
+        surface(&format!("file = \"xy.asc\"\n{unit}pixel_size = {pixel}\n"))
+            .prepare(resolve)
+            .map(|map| map.map.pixel())
+    };
+    let other = sides("\"1.5 um\"").err().unwrap().to_string();
+    assert!(other.contains("1.5 x 2") && other.contains("[\"1.5 um\", \"2 um\"]"), "{other}");
+    assert_eq!(sides("[\"3 um\", \"4 um\"]").unwrap(), [3e-6, 4e-6]);
     let square = surface(&format!("file = \"z.npy\"\n{unit}pixel_size = \"2 um\"\n"));
     assert_eq!(square.pixel_size, surface(&format!("file = \"z.npy\"\n{unit}{pixel}")).pixel_size);
     let forced = surface(&format!("file = \"z.x3p\"\n{unit}{pixel}override = true\nlevel = \"none\""))

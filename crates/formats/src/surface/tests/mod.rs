@@ -300,6 +300,7 @@ fn an_x3p_that_lies_is_refused_and_not_unpacked() {
     }
 }
 
+mod asked;
 mod beside;
 mod claims;
 mod containers;

@@ -88,3 +88,9 @@ fn titles_of_numbers_and_an_underscore_are_titles() {
     let table = indentation::read(&format!("{head}{rows}"), COLUMNS, None).unwrap();
     assert_eq!(table.series.iter().map(|s| s.rows.len()).collect::<Vec<_>>(), [2, 2]);
 }
+
+/// An exporter in capitals alone: a force of 280 MN.
+#[test]
+fn beside_micrometres_in_capitals_mn_is_a_millinewton() {
+    is_the_curve("Depth [UM]\tLoad [MN]\n0.1\t2\n0.2\t8\n", COLUMNS);
+}
