@@ -114,7 +114,7 @@ impl Deck {
             };
             writeln!(
                 out,
-                "** *PLASTIC holds {measure}, as the scene means it; its reader has a measure of its own."
+                "** *PLASTIC holds {measure}, as the scene means it; the program that reads this deck may take another measure."
             )?;
         }
         if self.moving_share > 0.0 && self.phases.len() > 1 {

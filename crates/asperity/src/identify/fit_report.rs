@@ -24,7 +24,11 @@ impl Identification {
         let parameter = |(name, found): (&String, &Found)| {
             let at = |key: &str| numbers.shown(&format!("/parameters/{name}/{key}"), 1.0, "");
             let unit = if found.unit.is_empty() { String::new() } else { format!(", {}", found.unit) };
-            let told = if found.identifiable { "yes" } else { "no" };
+            let told = match (found.identifiable, found.at_bound.contains(&true)) {
+                (true, _) => "yes",
+                (false, true) => "no, a bound of the search cuts its interval",
+                (false, false) => "no",
+            };
             vec![
                 html! { (name.replace('_', " ")) (unit) },
                 at("value"),
@@ -73,7 +77,7 @@ impl Identification {
         };
         let report = Report {
             title: if self.residual.fits { "A metal identified" } else { "No metal fits" },
-            about: "From measured indentation curves by finite elements",
+            about: "From measured force curves, by finite elements",
             verdict: &format!("{}.", self.verdict),
             warnings: &self.notes,
             sections,

@@ -210,7 +210,9 @@ fn digits(value: f64, low: f64, high: f64) -> usize {
 fn quoted(name: &str, f: &Found) -> String {
     let d = digits(f.value, f.low, f.high);
     let unit = if f.unit.is_empty() { String::new() } else { format!(" {}", f.unit) };
-    format!("{name} {:.d$} ({:.d$} to {:.d$}){unit}", f.value, f.low, f.high)
+    // an interval that the search cut short
+    let [low, high] = f.at_bound.map(|is_bound| if is_bound { "the bound " } else { "" });
+    format!("{name} {:.d$} ({low}{:.d$} to {high}{:.d$}){unit}", f.value, f.low, f.high)
 }
 
 impl Identification {

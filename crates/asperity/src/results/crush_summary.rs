@@ -268,7 +268,8 @@ impl Summary {
         let stated = self.scene.stated_and_promised(&self.numbers);
         let way_out = self.way_out(stated.map(|[stated, promised]| stated / promised));
         let mut warnings = Vec::new();
-        for (what, [error, promise]) in ["force", "contact area"].into_iter().zip(stated) {
+        let force = if self.scene.asperity_count() > 1 { "force" } else { "force along the curve" };
+        for (what, [error, promise]) in [force, "contact area"].into_iter().zip(stated) {
             if error.is_nan() && self.stopped.is_some() {
                 warnings.push(format!(
                     "the run ended before its goal: its {what} is not extrapolated and has no stated error"
@@ -314,10 +315,22 @@ impl Summary {
         let work = work_to_keep(over);
         match self.rounds {
             _ if self.scene.mesh.is_some() => "the mesh is given, and stays; give a finer one".into(),
-            1 => format!(
-                "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact the run is refined by itself, at \
-                 about {work:.0} times the work"
-            ),
+            1 => {
+                let why = match &self.scene.numerics {
+                    numerics if numerics.elements_in_contact.is_some() => {
+                        "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact"
+                    }
+                    numerics if numerics.refine == Some(false) => {
+                        "it was to run once; without --no-refine, or numerics.refine = false,"
+                    }
+                    _ => {
+                        return format!(
+                            "no finer run came to its end; give a larger numerics.elements_in_contact, at about {work:.0} times the work"
+                        );
+                    }
+                };
+                format!("{why} the run is refined by itself, at about {work:.0} times the work")
+            }
             rounds => format!(
                 "{rounds} rounds of finer numbers did not bring it below; that would take about {work:.0} times the work of the last one, \
                  with a larger numerics.elements_in_contact"

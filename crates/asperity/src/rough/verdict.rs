@@ -131,13 +131,13 @@ fn judgement(judged: &[ComparedClosure], by: &str, error: f64, two_metals: bool)
     let ComparedClosure { name, ratio, outside } = *nearest;
     let off = 100.0 * (ratio - 1.0);
     if error > KNOWN_AREA_ERROR {
-        let way_out = if two_metals {
-            "give the hardness or the yield stress of the metal, not both"
+        let (why, way_out) = if two_metals {
+            ("pixels and two metals", "give the hardness or the yield stress of the metal, not both")
         } else {
-            "measure finer, or smooth with s_filter"
+            ("pixels alone", "measure finer, or smooth with s_filter")
         };
         return Some(format!(
-            "which closure to believe cannot be judged here: that area is uncertain by {:.0} %, more than {:.0} % ({way_out}; the nearest, {name}, has an area {off:+.0} % off that of {by})",
+            "which closure to believe cannot be judged here: {why} leave that area uncertain by {:.1} %, more than {:.0} % ({way_out}; the nearest, {name}, has an area {off:+.0} % off that of {by})",
             100.0 * error,
             100.0 * KNOWN_AREA_ERROR
         ));
@@ -189,7 +189,7 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
         );
         if let Some(fluid) = fluid {
             let unit = if fluid.gas { "Pa m³/s of this gas" } else { "m³/s of this fluid" };
-            let _ = write!(text, ": {:.2e} {unit}", fluid.flow(leak.conductance));
+            let _ = write!(text, ": {:.2e} {unit} through this map", fluid.flow(leak.conductance));
         }
     }
     text
@@ -225,7 +225,7 @@ mod tests {
         assert!(said(0.95, 0.0, 0.02).starts_with("of the closures believe near"));
         assert!(said(0.95, 0.0, 0.02).contains("off that of half-space"));
         assert!(said(0.8, 0.0, 0.02).starts_with("believe none"));
-        assert!(said(0.95, 0.0, 0.22).contains("uncertain by 22 %"));
+        assert!(said(0.95, 0.0, 0.22).contains("pixels alone leave that area uncertain by 22.0 %"));
         assert!(said(0.95, 0.6, 0.02).contains("60 % of its load"));
         assert_eq!(known_to(0.123), "(± 12 %)");
         assert!(

@@ -76,7 +76,7 @@ fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
     ))
 }
 
-/// A fluid that no closure lets flow.
+/// A fluid that no closure lets flow, or a seal of it that is not of this map.
 fn unused_fluid(scene: &Scene) -> Option<String> {
     let flows = scene.closure.closures().iter().any(|closure| closure.is_half_space());
     let text = match scene.half_space.leak {
@@ -84,7 +84,12 @@ fn unused_fluid(scene: &Scene) -> Option<String> {
             "closures of islands leave no gap that can leak; add closure \"half-space\" or \"half-space-plastic\""
         }
         Some(false) => "half_space.leak = false; leave it out and the fluid flows",
-        _ => return None,
+        _ => {
+            let shape = scene.fluid.as_ref()?.width_over_length?;
+            return Some(format!(
+                "fluid.width_over_length = {shape} is not used: flows are those through this map; `asperity joint` takes it"
+            ));
+        }
     };
     scene.fluid.as_ref().map(|_| format!("[fluid] is not used: {text}"))
 }
@@ -150,7 +155,7 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
 }
 
 /// Share of Sq that the plane of a surface may be without a word.
-const MAX_TILT_SHARE: f64 = 0.9;
+const MAX_TILT_SHARE: f64 = 0.5;
 
 /// A surface that is tilted far more than it is rough.
 fn tilt(surface: &Surface, scene: &Scene) -> Option<String> {
@@ -161,7 +166,7 @@ fn tilt(surface: &Surface, scene: &Scene) -> Option<String> {
     let share = 1.0 - level.parameters.sq / surface.parameters.sq;
     (share > MAX_TILT_SHARE).then(|| {
         format!(
-            "the mean plane of the map carries {:.1} % of Sq: it is tilted, not rough; surface.level = \"plane\" removes the tilt",
+            "the mean plane of the map carries {:.1} % of Sq: it is tilted more than it is rough; surface.level = \"plane\" removes the tilt",
             100.0 * share
         )
     })

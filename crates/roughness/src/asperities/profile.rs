@@ -37,7 +37,9 @@ pub enum ProfileError {
         radius_um: f64,
     },
     /// Too few pixels.
-    #[error("only {points} circles a pixel apart fit between summit and depth: measure finer, or go deeper")]
+    #[error(
+        "too few circles a pixel apart fit between summit and depth ({points}): measure finer, or go deeper"
+    )]
     Coarse {
         /// Circles from the summit to the depth.
         points: usize,

@@ -326,7 +326,8 @@ impl SurfaceScene {
         let unit = match (measured.height_unit, &self.height_unit) {
             (Some(file), Some(scene)) if !same(file, scene.metres) && !self.override_file => {
                 let message = format!(
-                    "the file has its heights in units of {file} m, not {}: remove height_unit, or set override = true",
+                    "the file has its heights in units of {}, not of 1 {}: remove height_unit, or set override = true",
+                    Length(file),
                     scene.name
                 );
                 return error("surface.height_unit", message);
