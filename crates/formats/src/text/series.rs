@@ -285,7 +285,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         self.block = Some(Block { header, columns: None, first, has_plain_rows: false, end: None });
     }
 
-    /// The columns of `header` above its first row of numbers, the line `text`; `None` where `row` holds none.
+    /// The columns of `header` above its first row of numbers, the line `text`; `None` where `row` has none.
     fn columns_above(
         &self,
         header: &Header<'_>,
