@@ -20,6 +20,16 @@ const SEEN_MISSING_SHARE: f64 = 1e-4;
 /// The tables end at this many times the largest load that was computed, along the last tangent.
 const CONTINUED: f64 = 2.0;
 
+/// A column that not every joint has.
+pub(super) struct OptionalColumn {
+    /// Its name and unit for a person.
+    pub head: &'static str,
+    /// Its key in a row.
+    pub key: &'static str,
+    /// Its number in a row.
+    of: fn(&JointRow) -> Option<f64>,
+}
+
 impl Joint {
     /// Writes joint.csv, joint.json, calculix.inp, abaqus.inp, moose.csv and the charts.
     ///
@@ -167,6 +177,19 @@ impl Joint {
         )
     }
 
+    /// The columns of conductance and flow that this joint has, each with its head.
+    pub(super) fn optional_columns(&self) -> Vec<OptionalColumn> {
+        let column = |head, key, of| OptionalColumn { head, key, of };
+        let all = [
+            column("h, W/(m² K)", "conductance_W_per_m2K", |row| row.conductance_W_per_m2K),
+            column("flow x, ml/min", "flow_x_ml_per_min", |row| row.flow_x_ml_per_min),
+            column("flow y, ml/min", "flow_y_ml_per_min", |row| row.flow_y_ml_per_min),
+            column("x, mbar l/s", "flow_x_mbar_l_per_s", |row| row.flow_x_mbar_l_per_s),
+            column("y, mbar l/s", "flow_y_mbar_l_per_s", |row| row.flow_y_mbar_l_per_s),
+        ];
+        all.into_iter().filter(|c| self.rows.iter().any(|row| (c.of)(row).is_some())).collect()
+    }
+
     /// The result for a person.
     pub fn text(&self) -> String {
         let s = &self.summary;
@@ -186,19 +209,24 @@ impl Joint {
             s.missing,
             with_digits(s.sq_um, 4),
         );
-        text += "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um  h W/(m² K)  error %\n";
+        let more = self.optional_columns();
+        let heads: String = more.iter().map(|column| format!("  {:>14}", column.head)).collect();
+        let _ = writeln!(
+            text,
+            "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um{heads}  error %"
+        );
         let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
         for row in &self.rows {
             let _ = writeln!(
                 text,
-                "{:<8} {:>12}  {:>12}  {:>12}  {:>8}  {:>14}  {:>10}  {:>7}",
+                "{:<8} {:>12}  {:>12}  {:>12}  {:>8}  {:>14}{}  {:>7}",
                 if row.phase == Phase::Load { "load" } else { "unload" },
                 shown(Some(row.pressure_MPa)),
                 shown(Some(row.mean_gap_um)),
                 shown(Some(row.approach_um)),
                 shown(Some(100.0 * row.contact_area_ratio_corrected)),
                 shown(row.elastic_stiffness_MPa_per_um),
-                shown(row.conductance_W_per_m2K),
+                more.iter().map(|column| format!("  {:>14}", shown((column.of)(row)))).collect::<String>(),
                 row.error.map_or_else(|| "-".into(), |e| rounded(100.0 * e)),
             );
         }

@@ -47,21 +47,23 @@ impl Joint {
     }
 
     fn loads(&self, numbers: &Numbers) -> Markup {
+        let more = self.optional_columns();
         let places: Vec<usize> =
             (0..self.rows.len()).filter(|i| self.rows[*i].phase == Phase::Load).collect();
         let step = places.len().div_ceil(SHOWN_ROWS).max(1);
         let row = |i: &usize| {
             let at = |key: &str, scale: f64| numbers.shown(&format!("/rows/{i}/{key}"), scale, "");
-            vec![
+            let mut cells = vec![
                 at("pressure_MPa", 1.0),
                 at("mean_gap_um", 1.0),
                 at("approach_um", 1.0),
                 at("contact_area_ratio_corrected", 100.0),
                 at("stiffness_MPa_per_um", 1.0),
                 at("elastic_stiffness_MPa_per_um", 1.0),
-                at("conductance_W_per_m2K", 1.0),
                 numbers.error(&format!("/rows/{i}/error"), ""),
-            ]
+            ];
+            cells.extend(more.iter().map(|column| at(column.key, 1.0)));
+            cells
         };
         let rows: Vec<_> = places.iter().rev().step_by(step).rev().map(row).collect();
         let head = [
@@ -71,9 +73,9 @@ impl Joint {
             "true contact, %",
             "stiffness of loading, MPa/µm",
             "elastic stiffness, MPa/µm",
-            "conductance, W/(m² K)",
-            "error of the last two",
+            "its error, and that of the conductance",
         ];
+        let head: Vec<&str> = head.into_iter().chain(more.iter().map(|column| column.head)).collect();
         page::table("Some of the loads, from first touch to the largest; all are in joint.csv.", &head, &rows)
     }
 
@@ -88,11 +90,14 @@ impl Joint {
                 numbers.error(&format!("/{key}/residual"), ""),
             ]
         };
-        let rows = [
+        let mut rows = vec![
             row("p = a exp(-gap/b), MPa and µm", "fit_pressure", ["pressure_MPa", "length_um"]),
             row("elastic stiffness = a (p/MPa)^b, MPa/µm", "fit_stiffness", ["factor", "exponent"]),
-            row("conductance = a (p/MPa)^b, W/(m² K)", "fit_conductance", ["factor", "exponent"]),
         ];
+        if self.summary.fit_conductance.is_some() {
+            let name = "conductance = a (p/MPa)^b, W/(m² K)";
+            rows.push(row(name, "fit_conductance", ["factor", "exponent"]));
+        }
         let head = ["formula", "a", "b", "pressures, MPa", "residual"];
         page::table(
             "Formulas through loads that touch in spots, up to 30 % of the area, each over the widest range \
