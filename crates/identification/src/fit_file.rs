@@ -6,7 +6,10 @@ use asperity_material::units::{Compliance, Length, Stiffness, Stress};
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::{Asperity, Friction, HardeningChoice};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt::{self, Formatter};
 use std::path::PathBuf;
 
 /// Everything that defines an identification: what `asperity identify` reads.
@@ -149,7 +152,7 @@ pub struct FitCurve {
 }
 
 /// The imprint of a measurement: its file, or the file with what is to be said of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FitImprint {
     /// Its file.
@@ -183,13 +186,55 @@ pub struct ImprintTable {
 }
 
 /// Distance of the points of a map.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ImprintPixel {
     /// Along both sides.
     Both(Length),
     /// Along x and along y.
     Each([Length; 2]),
+}
+
+/// By the form of the value, so that a message names the key that is wrong.
+impl<'de> Deserialize<'de> for FitImprint {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = FitImprint;
+            fn expecting(&self, to: &mut Formatter<'_>) -> fmt::Result {
+                to.write_str(
+                    "a file, \"imprint.csv\", or a table, { file = \"imprint.csv\", noise = \"5 nm\" }",
+                )
+            }
+            fn visit_str<E: de::Error>(self, file: &str) -> Result<FitImprint, E> {
+                Ok(FitImprint::File(file.into()))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<FitImprint, A::Error> {
+                ImprintTable::deserialize(MapAccessDeserializer::new(table)).map(FitImprint::Table)
+            }
+        }
+        from.deserialize_any(Reader)
+    }
+}
+
+/// Likewise.
+impl<'de> Deserialize<'de> for ImprintPixel {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Reader;
+        impl<'de> Visitor<'de> for Reader {
+            type Value = ImprintPixel;
+            fn expecting(&self, to: &mut Formatter<'_>) -> fmt::Result {
+                to.write_str("a length, \"1 um\", or two, [\"1 um\", \"2 um\"]")
+            }
+            fn visit_str<E: de::Error>(self, size: &str) -> Result<ImprintPixel, E> {
+                Length::deserialize(size.into_deserializer()).map(ImprintPixel::Both)
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, sizes: A) -> Result<ImprintPixel, A::Error> {
+                <[Length; 2]>::deserialize(SeqAccessDeserializer::new(sizes)).map(ImprintPixel::Each)
+            }
+        }
+        from.deserialize_any(Reader)
+    }
 }
 
 impl ImprintPixel {
@@ -362,10 +407,27 @@ pub struct FitTool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde::de::value::{MapDeserializer, StrDeserializer};
 
     #[test]
     fn a_table_of_features_is_told_from_a_curve() {
         assert!(Features::are_named_in("\nC_GPa,dP/dh_N_per_m,Wp/Wt\n27.4,5.1e6,0.9\n"));
         assert!(!Features::are_named_in("time_s,voltage\n1,2\n"));
+    }
+
+    #[test]
+    fn a_key_that_an_imprint_lacks_is_named() {
+        let of = |entries: &[(&'static str, &'static str)]| {
+            let table = MapDeserializer::<_, de::value::Error>::new(entries.iter().copied());
+            FitImprint::deserialize(table).map_err(|e| e.to_string())
+        };
+        let problem = of(&[("file", "a.csv"), ("nois", "5 nm")]).unwrap_err();
+        assert!(problem.contains("`nois`") && problem.contains("`correlation_length`"), "{problem}");
+        assert_eq!(of(&[("file", "a.csv")]).unwrap().table(), FitImprint::File("a.csv".into()).table());
+        let size: StrDeserializer<'_, de::value::Error> = "1 parsec".into_deserializer();
+        let problem = ImprintPixel::deserialize(size).unwrap_err().to_string();
+        assert!(problem.contains("parsec"), "{problem}");
+        let file: StrDeserializer<'_, de::value::Error> = "a.csv".into_deserializer();
+        assert_eq!(FitImprint::deserialize(file), Ok(FitImprint::File("a.csv".into())));
     }
 }

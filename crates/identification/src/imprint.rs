@@ -120,10 +120,18 @@ impl Imprint {
                 1e6 * radius
             ));
         }
-        let inner: Vec<f64> =
-            points.iter().filter(|p| p[0].abs() < INNER_RADII * radius).map(|p| p[1]).collect();
+        // the bottom of a hole may be where nothing was measured
+        let within = |radii: f64| -> Vec<f64> {
+            points.iter().filter(|p| p[0].abs() < radii * radius).map(|p| p[1]).collect()
+        };
+        let Some(inner) = [INNER_RADII, 1.0].map(within).into_iter().find(|inner| !inner.is_empty()) else {
+            return Err(format!(
+                "has no height within the contact of about {:.3} um: the imprint itself is missing, or its places do not count from its middle",
+                1e6 * radius
+            ));
+        };
         let middle = inner.iter().sum::<f64>() / inner.len() as f64;
-        if middle.is_nan() || middle >= -LEAST_DEPTH_SHARE * depth {
+        if middle >= -LEAST_DEPTH_SHARE * depth {
             return Err(format!(
                 "lies about the axis at {:.4} um on average, and not below 0: heights z count up from the far field, the imprint lies below it, places r from its middle; where they count down say imprint = {{ file = …, z_down = true }}",
                 1e6 * middle
@@ -347,6 +355,17 @@ mod tests {
         refused(&points(1.0, 4), "too few");
         let imprint = Imprint::new((&points(1.0, 45), false), 3e-6, 1e-6, StatedNoise::default()).unwrap();
         assert!(imprint.notes[0].contains("state it"), "{:?}", imprint.notes);
+    }
+
+    #[test]
+    fn a_hole_without_a_bottom_is_compared_and_none_is_not() {
+        let beyond = |least: f64| {
+            let places = (0..90).map(|i| 0.1 * f64::from(i)).filter(|r| *r > least);
+            let points: Vec<[f64; 2]> = places.map(|r| [1e-6 * r, 1e-6 * profile(r)]).collect();
+            Imprint::new((&points, false), 3e-6, 1e-6, StatedNoise::default())
+        };
+        assert!(beyond(1.5).is_ok());
+        assert!(beyond(3.1).unwrap_err().contains("the imprint itself is missing"));
     }
 
     /// A ring of a quarter of the far radius has a quarter of its patches, hence twice the noise;

@@ -5,47 +5,12 @@
 
 use crate::far_field::tail;
 use crate::imprint::FARTHEST_RADII;
-use asperity_formats::dimension::Dimension;
+use crate::imprint_columns::{Table, unknown_columns};
+use crate::imprint_profile::{line, profile};
 use asperity_formats::surface::{self, Measured, Request, Spacing};
-use asperity_formats::text::{Asked, Quantity, read_series};
 use asperity_formats::units::Length;
 use asperity_numerics::least_squares;
 use std::path::Path;
-
-/// Distance from the axis, negative on its other side.
-const PLACE: Quantity = Quantity {
-    name: "place r",
-    dimension: Dimension::Length,
-    called: &["r", "x", "radius", "distance", "position", "abstand", "rayon", "lateral"],
-    example: "r_um",
-};
-
-/// Height over the far field.
-const HEIGHT: Quantity = Quantity {
-    name: "height z",
-    dimension: Dimension::Length,
-    called: &[
-        "z",
-        "height",
-        "profile",
-        "hohe",
-        "hoehe",
-        "profil",
-        "hauteur",
-        "altezza",
-        "altura",
-        "depth",
-        "tiefe",
-        "profondeur",
-        "profondita",
-        "profundidad",
-    ],
-    example: "z_um",
-};
-
-/// The other place of a point of a map.
-const OTHER_PLACE: Quantity =
-    Quantity { name: "place y", dimension: Dimension::Length, called: &["y"], example: "y_um" };
 
 /// Statements of the user on a file beside its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,16 +27,11 @@ pub struct Reading<'a> {
 /// the axis.
 const HOLE_SHARE: f64 = 0.4;
 /// Contact radii from which a map is levelled.
-const LEVEL_RADII: f64 = 2.0;
+pub(crate) const LEVEL_RADII: f64 = 2.0;
 /// Contact radii to which ring means have to reach, that their end tells the height of the ground.
 const GROUND_RADII: f64 = 3.0;
 /// Rings of a radial mean over one contact radius: a wide one would blunt the rim.
 const RINGS: f64 = 160.0;
-/// Contact radii to which a line reaches on both sides of an imprint that it crosses, and from which its
-/// middle is not the 0 of its places: half of an imprint, weighted by its depth, has its middle within.
-const LINE_RADII: f64 = 1.2;
-const CENTRED_RADII: f64 = 0.5;
-
 /// An imprint as a file has it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImprintRead {
@@ -94,60 +54,46 @@ pub fn read(
     radius: f64,
     reading: Reading<'_>,
 ) -> Result<ImprintRead, String> {
-    // a list of points x, y, z has the columns of a profile too
-    let is_list = text.is_some_and(|(t, _)| {
-        read_series(t, &[PLACE, OTHER_PLACE, HEIGHT], &Asked::default()).is_ok_and(|t| !t.series.is_empty())
-    });
-    let of_points = is_list.then(|| map(path, radius, reading));
-    if let Some(Ok(read)) = of_points {
-        return Ok(read);
-    }
-    let Some((text, encoding)) = text else { return map(path, radius, reading) };
-    match (profile(text, encoding, radius, reading), of_points) {
-        (Ok(read), _) => Ok(read),
-        (Err(_), Some(Err(problem))) => Err(problem),
-        (Err(no_profile), _) => map(path, radius, reading).map_err(|no_map| {
-            if no_map.starts_with(UNSAID) {
-                no_map
-            } else {
-                format!("is no profile ({no_profile}), and no map: {no_map}")
-            }
+    let of_map = || map(path, radius, reading).map_err(|no_map| without_keys(&no_map));
+    let Some((text, encoding)) = text else { return of_map() };
+    match Table::new(text) {
+        Ok(Table::Profile(table)) => profile(table, encoding, radius, reading),
+        Ok(Table::Points(table)) => of_map().or_else(|no_map| {
+            let beside = format!("{no_map}; nor do the points lie on one line");
+            let problem = if no_map.starts_with(UNSAID) { no_map } else { beside };
+            line(table, encoding, radius, reading).unwrap_or(Err(problem))
         }),
+        Err(no_profile) => match unknown_columns(text, &no_profile) {
+            Some(unknown) => Err(unknown),
+            None => of_map().map_err(|no_map| {
+                if no_map.starts_with(UNSAID) {
+                    no_map
+                } else {
+                    format!("is no profile ({no_profile}), and no map: {no_map}")
+                }
+            }),
+        },
     }
 }
 
-/// Those of a profile.
-fn profile(text: &str, encoding: &str, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, String> {
-    let table = read_series(text, &[PLACE, HEIGHT], &Asked::default()).map_err(|e| e.to_string())?;
-    let mut points = table.series.into_iter().next().map(|series| series.rows).unwrap_or_default();
-    if reading.is_down {
-        for p in &mut points {
-            p[1] = -p[1];
-        }
-    }
-    let mut understood = format!("{encoding} text: {}", table.understood);
-    if let Some((about, middle)) = centred(&points, radius) {
-        points = about;
-        let middle = 1e6 * middle;
-        understood += &format!(
-            "; a line across the imprint, levelled beyond {LEVEL_RADII} contact radii, its middle at {middle:.3} um"
-        );
-    }
-    Ok(ImprintRead { points, are_means: false, understood })
-}
+/// What can be done about an imprint in place of setting keys of a surface.
+const WAYS: [(&str, &str); 4] = [
+    ("override = ", ""),
+    ("missing_value = ", ": write nan in its place"),
+    ("columns = {", ": head the columns of points x_um,y_um,z_um"),
+    ("decimal = ", ": write a point before decimals"),
+];
 
-/// The points of a line that crosses the whole imprint elsewhere than at 0, levelled and about its middle,
-/// and the place of that; `None` of a profile that counts from the middle.
-fn centred(points: &[[f64; 2]], radius: f64) -> Option<(Vec<[f64; 2]>, f64)> {
-    let mut points: Vec<[f64; 3]> = points.iter().map(|p| [p[0], 0.0, p[1]]).collect();
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    // sums are integrals over the line: readings that stand close together count for no more of it
-    let place = |i: usize| points[i.min(points.len() - 1)][0];
-    let lengths: Vec<f64> = (0..points.len()).map(|i| place(i + 1) - place(i.saturating_sub(1))).collect();
-    let [middle, _] = level(&mut points, radius, |i| lengths[i], |p| [1.0, p[0] / radius]).ok()?;
-    let reaches = |side: f64| points.iter().any(|p| side * (p[0] - middle) > LINE_RADII * radius);
-    let crosses = middle.abs() > CENTRED_RADII * radius && reaches(-1.0) && reaches(1.0);
-    crosses.then(|| (points.iter().map(|p| [p[0] - middle, p[2]]).collect(), middle))
+/// The message on a map in terms of an imprint, which has fewer keys than a surface.
+fn without_keys(message: &str) -> String {
+    let mut message = message.to_string();
+    for (key, way) in WAYS {
+        let Some(at) = message.find(key) else { continue };
+        let start = [": ", ", or "].iter().filter_map(|mark| message[..at].rfind(mark)).max();
+        message.truncate(start.unwrap_or(at));
+        message += way;
+    }
+    message
 }
 
 /// How the message on a map begins of which too little is known.
@@ -208,7 +154,7 @@ fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, St
 ///
 /// # Errors
 /// Too little beside the hole, or none.
-fn level<const N: usize>(
+pub(crate) fn level<const N: usize>(
     points: &mut [[f64; 3]],
     radius: f64,
     share: impl Fn(usize) -> f64,
@@ -327,27 +273,23 @@ mod tests {
         }
     }
 
-    /// A line along x over the same cone, read from its left end and tilted: the cone about its middle. A
-    /// profile that counts from the middle stays as it is, one side of it or both.
     #[test]
-    fn a_line_from_its_end_is_centred_and_levelled() {
-        let line = |from: f64, to: f64, middle: f64, tilt: f64| {
-            let at = move |k: i32| from + (to - from) * f64::from(k) / 400.0;
-            (0..=400)
-                .map(|k| [at(k), (0.2 * (at(k) - middle).abs() - 1e-6).min(0.0) + tilt * at(k)])
-                .collect::<Vec<_>>()
-        };
-        let (points, middle) = centred(&line(0.0, 40e-6, 22.3e-6, 0.02), 5e-6).unwrap();
-        assert!((middle - 22.3e-6).abs() < 0.05e-6, "{middle:e}");
-        for [x, z] in points {
-            let cone = (0.2 * x.abs() - 1e-6).min(0.0);
-            assert!((z - cone).abs() < 0.02e-6, "{x:e} {z:e} {cone:e}");
+    fn a_message_on_a_map_names_no_key_that_an_imprint_lacks() {
+        for (of_a_surface, of_an_imprint) in [
+            (
+                "holds -9999 at 9 points, where nothing was measured: set missing_value = -9999, or override = true if it is a height",
+                "holds -9999 at 9 points, where nothing was measured: write nan in its place",
+            ),
+            (
+                "line 2: names Q beside heights: delete what holds none, or set override = true if all are",
+                "line 2: names Q beside heights: delete what holds none",
+            ),
+            (
+                "the shape of a list: name the columns of points by columns = { x = \"1\" }, or set override = true if it is a map",
+                "the shape of a list: head the columns of points x_um,y_um,z_um",
+            ),
+        ] {
+            assert_eq!(without_keys(of_a_surface), of_an_imprint);
         }
-        // as finite elements write it: close points under the tool, the last ones a thousand radii away
-        let growing = (0..200).map(|k| 0.05e-6 * f64::from(k) + 1e-8 * 1.06_f64.powi(k));
-        let surface: Vec<[f64; 2]> = growing.map(|r| [r, (0.2 * r - 1e-6).min(0.0)]).collect();
-        assert_eq!(centred(&surface, 5e-6), None);
-        assert_eq!(centred(&line(0.0, 20e-6, 0.0, 0.0), 5e-6), None);
-        assert_eq!(centred(&line(-20e-6, 20e-6, 0.1e-6, 0.0), 5e-6), None);
     }
 }

@@ -24,7 +24,11 @@ pub mod far_field;
 
 pub mod imprint;
 
+mod imprint_columns;
+
 pub mod imprint_file;
+
+mod imprint_profile;
 
 pub mod interpolation;
 
