@@ -6,7 +6,8 @@
 use crate::far_field::tail;
 use crate::imprint::FARTHEST_RADII;
 use crate::imprint_columns::{Table, unknown_columns};
-use crate::imprint_profile::{line, profile};
+use crate::imprint_level::{LEVEL_RADII, level};
+use crate::imprint_profile::{Profile, line, profile};
 use asperity_formats::surface::{self, Measured, Request, Spacing};
 use asperity_formats::units::Length;
 use asperity_numerics::least_squares;
@@ -23,15 +24,11 @@ pub struct Reading<'a> {
     pub is_down: bool,
 }
 
-/// Share of the depth of the deepest point below which a point of a map belongs to the hole, whose middle is
-/// the axis.
-const HOLE_SHARE: f64 = 0.4;
-/// Contact radii from which a map is levelled.
-pub(crate) const LEVEL_RADII: f64 = 2.0;
 /// Contact radii to which ring means have to reach, that their end tells the height of the ground.
 const GROUND_RADII: f64 = 3.0;
 /// Rings of a radial mean over one contact radius: a wide one would blunt the rim.
 const RINGS: f64 = 160.0;
+
 /// An imprint as a file has it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImprintRead {
@@ -56,12 +53,16 @@ pub fn read(
 ) -> Result<ImprintRead, String> {
     let of_map = || map(path, radius, reading).map_err(|no_map| without_keys(&no_map));
     let Some((text, encoding)) = text else { return of_map() };
+    let as_text = |Profile { points, understood }| {
+        let understood = format!("{encoding} text: {understood}");
+        ImprintRead { points, are_means: false, understood }
+    };
     match Table::new(text) {
-        Ok(Table::Profile(table)) => profile(table, encoding, radius, reading),
+        Ok(Table::Profile(table)) => profile(table, radius, reading.is_down).map(as_text),
         Ok(Table::Points(table)) => of_map().or_else(|no_map| {
             let beside = format!("{no_map}; nor do the points lie on one line");
             let problem = if no_map.starts_with(UNSAID) { no_map } else { beside };
-            line(table, encoding, radius, reading).unwrap_or(Err(problem))
+            line(table, radius, reading.is_down).unwrap_or(Err(problem)).map(as_text)
         }),
         Err(no_profile) => match unknown_columns(text, &no_profile) {
             Some(unknown) => Err(unknown),
@@ -149,38 +150,6 @@ fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, St
     Ok(ImprintRead { points: radial_mean(&measured, pixel, unit, radius)?, are_means: true, understood })
 }
 
-/// Levels `points` (x, y, z), which stand for so much of the surface as `share` says, by what lies far from
-/// the hole, a plane of the terms of `row`; the middle of the hole.
-///
-/// # Errors
-/// Too little beside the hole, or none.
-pub(crate) fn level<const N: usize>(
-    points: &mut [[f64; 3]],
-    radius: f64,
-    share: impl Fn(usize) -> f64,
-    row: impl Fn(&[f64; 3]) -> [f64; N],
-) -> Result<[f64; 2], String> {
-    // a slope of the whole comes first, so that its lower side is no hole; then the hole has no say
-    for round in 0..3 {
-        let centre = if round == 0 { None } else { Some(centre(points, &share)?) };
-        let far = |(_, p): &(usize, &[f64; 3])| {
-            centre.is_none_or(|c: [f64; 2]| (p[0] - c[0]).hypot(p[1] - c[1]) > LEVEL_RADII * radius)
-        };
-        let rows: Vec<_> =
-            points.iter().enumerate().filter(far).map(|(i, p)| (row(p), p[2], share(i))).collect();
-        let plane = least_squares::solve(&rows).filter(|_| rows.len() > 20).ok_or_else(|| {
-            format!(
-                "shows too little beside the imprint to level it: it has to reach beyond {LEVEL_RADII} contact radii, {:.3} um",
-                1e6 * LEVEL_RADII * radius
-            )
-        })?;
-        for p in points.iter_mut() {
-            p[2] -= row(p).iter().zip(&plane).map(|(term, of)| term * of).sum::<f64>();
-        }
-    }
-    centre(points, &share)
-}
-
 /// Mean heights over rings about the middle of the hole, levelled by a plane through what lies far from it.
 fn radial_mean(
     measured: &Measured,
@@ -226,20 +195,6 @@ fn ground(means: &[[f64; 2]], radius: f64) -> f64 {
         Some([ground, _]) if reach > GROUND_RADII * radius => ground,
         _ => 0.0,
     }
-}
-
-/// Middle of the hole, weighted by its depth.
-fn centre(points: &[[f64; 3]], share: impl Fn(usize) -> f64) -> Result<[f64; 2], String> {
-    let lowest = points.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
-    let mut sums = [0.0; 3];
-    for (i, p) in points.iter().enumerate() {
-        let weight = share(i) * (HOLE_SHARE * lowest - p[2]).max(0.0);
-        sums = [sums[0] + weight, sums[1] + weight * p[0], sums[2] + weight * p[1]];
-    }
-    if sums[0].is_nan() || sums[0] <= 0.0 {
-        return Err("shows no hole: heights count up, the imprint lies below the surface around it".into());
-    }
-    Ok([sums[1] / sums[0], sums[2] / sums[0]])
 }
 
 #[cfg(test)]

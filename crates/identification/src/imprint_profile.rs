@@ -2,33 +2,31 @@
 //!
 //! What would be read wrongly without a word is refused: numbers that stand for no reading, a second profile.
 
-use crate::imprint_file::{ImprintRead, LEVEL_RADII, Reading, level};
+use crate::imprint_level::{LEVEL_RADII, level};
 use asperity_formats::text::{Series, SeriesTable};
 use asperity_material::units::rounded;
+
+/// A profile across an imprint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// Place and height, m.
+    pub points: Vec<[f64; 2]>,
+    /// Interpretation of the file.
+    pub understood: String,
+}
 
 /// The profile in `table`, heights above the far field.
 ///
 /// # Errors
 /// A second profile, or numbers that stand for no reading.
-pub fn profile(
-    table: SeriesTable<2>,
-    encoding: &str,
-    radius: f64,
-    reading: Reading<'_>,
-) -> Result<ImprintRead, String> {
-    let understood = format!("{encoding} text: {}", table.understood);
+pub fn profile(table: SeriesTable<2>, radius: f64, is_down: bool) -> Result<Profile, String> {
     let series = only_one(table.series)?;
-    made_ready(series, table.scales[1], understood, radius, reading)
+    made_ready(series, table.scales[1], table.understood, (radius, is_down))
 }
 
 /// The profile along the line on which the points in `table` lie; `None` where they lie on none.
-pub fn line(
-    table: SeriesTable<3>,
-    encoding: &str,
-    radius: f64,
-    reading: Reading<'_>,
-) -> Option<Result<ImprintRead, String>> {
-    let mut understood = format!("{encoding} text: {}", table.understood);
+pub fn line(table: SeriesTable<3>, radius: f64, is_down: bool) -> Option<Result<Profile, String>> {
+    let mut understood = table.understood;
     let Series { label, rows, lines } = match only_one(table.series) {
         Ok(series) => series,
         Err(several) => return Some(Err(several)),
@@ -38,7 +36,7 @@ pub fn line(
         understood += &format!("; places along the line of the points, {angle:.2}° from x");
     }
     let series = Series { label, rows, lines };
-    Some(made_ready(series, table.scales[2], understood, radius, reading))
+    Some(made_ready(series, table.scales[2], understood, (radius, is_down)))
 }
 
 /// The one profile of a file.
@@ -63,9 +61,8 @@ fn made_ready(
     Series { rows: mut points, lines, .. }: Series<2>,
     unit: f64,
     mut understood: String,
-    radius: f64,
-    reading: Reading<'_>,
-) -> Result<ImprintRead, String> {
+    (radius, is_down): (f64, bool),
+) -> Result<Profile, String> {
     let column = |k: usize, unit: f64| points.iter().map(|p| p[k] / unit).collect::<Vec<f64>>();
     refuse_lone(&column(1, unit), &lines)?;
     if let Some(start) = second_profile(&column(0, 1.0)) {
@@ -74,7 +71,7 @@ fn made_ready(
             lines[start]
         ));
     }
-    if reading.is_down {
+    if is_down {
         for p in &mut points {
             p[1] = -p[1];
         }
@@ -86,7 +83,7 @@ fn made_ready(
             "; a line across the imprint, levelled beyond {LEVEL_RADII} contact radii, its middle at {middle:.3} um"
         );
     }
-    Ok(ImprintRead { points, are_means: false, understood })
+    Ok(Profile { points, understood })
 }
 
 /// Distance of a height from all others, in ranges of these, from which it is none; that of a number by
@@ -207,7 +204,7 @@ fn centred(points: &[[f64; 2]], radius: f64) -> Option<(Vec<[f64; 2]>, f64)> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::imprint_file::read;
+    use crate::imprint_file::{ImprintRead, Reading, read};
     use std::path::Path;
 
     /// A cone of depth 1 um and radius 5 um about 0 from -12 to 12 um, row by row: `row` writes place and

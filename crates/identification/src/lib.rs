@@ -28,6 +28,7 @@ mod imprint_columns;
 
 pub mod imprint_file;
 
+mod imprint_level;
 mod imprint_profile;
 
 pub mod interpolation;
