@@ -19,6 +19,8 @@ mod cantilever;
 
 pub mod indentation;
 
+pub mod profile;
+
 pub mod surface;
 
 pub mod interface_law;

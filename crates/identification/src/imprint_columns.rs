@@ -2,85 +2,15 @@
 //! them.
 
 use asperity_formats::dimension::Dimension;
-use asperity_formats::text::{
-    Asked, Dialect, Quantity, Separator, SeriesTable, TextError, read_grid, read_series,
-};
+use asperity_formats::profile::{self, HEIGHT};
+use asperity_formats::text::{Asked, Quantity, Separator, SeriesTable, TextError, read_grid, read_series};
 
 /// Distance from the axis, negative on its other side.
-const PLACE: Quantity = Quantity {
-    name: "place r",
-    dimension: Dimension::Length,
-    called: &[
-        "r",
-        "x",
-        "radius",
-        "distance",
-        "position",
-        "lateral",
-        "horizontal",
-        "lateral distance",
-        "distance along profile",
-        "length",
-        "scan length",
-        "abscissa",
-        "x coordinate",
-        "x position",
-        "x axis",
-        "axis x",
-        "abstand",
-        "strecke",
-        "weg",
-        "lange",
-        "laenge",
-        "abszisse",
-        "rayon",
-        "longueur",
-        "abscisse",
-        "distanza",
-        "posizione",
-        "ascissa",
-        "distancia",
-        "posicion",
-        "位置",
-    ],
-    example: "r_um",
-};
+const PLACE: Quantity = Quantity { name: "place r", ..profile::PLACE };
 
-/// Height over the far field.
-const HEIGHT: Quantity = Quantity {
-    name: "height z",
-    dimension: Dimension::Length,
-    called: &[
-        "z",
-        "height",
-        "profile",
-        "vertical",
-        "raw",
-        "raw height",
-        "topography",
-        "elevation",
-        "ordinate",
-        "z coordinate",
-        "z position",
-        "z axis",
-        "axis z",
-        "hohe",
-        "hoehe",
-        "profil",
-        "hauteur",
-        "altitude",
-        "altezza",
-        "quota",
-        "altura",
-        "depth",
-        "tiefe",
-        "profondeur",
-        "profondita",
-        "profundidad",
-        "高さ",
-    ],
-    example: "z_um",
-};
+/// Height over the far field that counts down.
+const DEPTH: Quantity =
+    Quantity { called: &["depth", "tiefe", "profondeur", "profondita", "profundidad"], ..HEIGHT };
 
 /// The other place of a point of a map or of a line across it.
 const OTHER_PLACE: Quantity = Quantity {
@@ -89,10 +19,6 @@ const OTHER_PLACE: Quantity = Quantity {
     called: &["y", "y coordinate", "y position", "y axis", "axis y"],
     example: "y_um",
 };
-
-/// The only two columns of a graph, as Gwyddion exports a profile.
-const OF_A_GRAPH: [Quantity; 2] =
-    [Quantity { called: &["x"], ..PLACE }, Quantity { called: &["y"], ..HEIGHT }];
 
 /// Columns of a file of an imprint.
 pub enum Table {
@@ -108,21 +34,26 @@ impl Table {
     /// # Errors
     /// No columns of places and heights, or those of points with a y that has no unit.
     pub fn new(text: &str) -> Result<Table, TextError> {
-        let of_points = [PLACE, OTHER_PLACE, HEIGHT];
+        Table::with(text, HEIGHT).or_else(|no_profile| Table::with(text, DEPTH).map_err(|_| no_profile))
+    }
+
+    /// That with these heights.
+    fn with(text: &str, height: Quantity) -> Result<Table, TextError> {
+        let of_points = [PLACE, OTHER_PLACE, height];
         // a list of points has the columns of a profile too
         let no_points = match read_series(text, &of_points, &Asked::default()) {
             Ok(points) => return Ok(Table::Points(points)),
             Err(no_points) => no_points,
         };
-        match read_series(text, &[PLACE, HEIGHT], &Asked::default()) {
+        match profile::read(text, [PLACE, height], &Asked::default()) {
             Ok(table) => {
                 let without_units = Asked { may_lack_units: true, ..Asked::default() };
                 let has_y = read_series(text, &of_points, &without_units).is_ok();
                 if has_y { Err(no_points) } else { Ok(Table::Profile(table)) }
             }
             Err(no_profile) => match head_as_rows(text) {
-                Some(text) => Table::new(&text),
-                None => graph(text).map(Table::Profile).ok_or(no_profile),
+                Some(text) => Table::with(&text, height),
+                None => Err(no_profile),
             },
         }
     }
@@ -142,14 +73,6 @@ fn head_as_rows(text: &str) -> Option<String> {
         if i + 1 == line { row.replace(',', &mark) } else { row.to_string() }
     };
     Some(text.lines().enumerate().map(part).collect::<Vec<_>>().join("\n"))
-}
-
-/// That of a table of nothing but x and y.
-fn graph(text: &str) -> Option<SeriesTable<2>> {
-    let table = read_series(text, &OF_A_GRAPH, &Asked::default()).ok()?;
-    let row = text.lines().nth(table.series.first()?.lines.first()? - 1)?;
-    let cells = Dialect::detect(text, None, false).ok()?.cells(row).filter(|cell| !cell.is_empty()).count();
-    (cells == 2 * table.series.len()).then_some(table)
 }
 
 /// Most columns of a list, and rows per column from which more than three are no map.

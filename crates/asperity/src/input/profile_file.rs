@@ -6,48 +6,19 @@
 //! 0,20.0
 //! 0.5,19.98
 //! ```
-//! Places under `r` or `x` and heights under `z`, each with its unit; other columns are left out. Points may
-//! stand from the outside inward too.
+//! Places under `r` or `x` and heights under `z`, or under the names of instruments, each with its unit;
+//! other columns are left out. Points may stand from the outside inward too.
 
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
 use crate::input::toml_file::TomlFile;
-use asperity_formats::dimension::Dimension;
-use asperity_formats::text::{Asked, Quantity, Series, TextError, read_series};
+use asperity_formats::profile::{self, HEIGHT, PLACE};
+use asperity_formats::text::{Asked, Series, TextError};
 use asperity_simulation::scene::{Points, Scene, SceneError};
 use std::path::PathBuf;
 
 /// No file of an outline is larger.
 const MAX_BYTES: u64 = 16 << 20;
-
-/// Distance from the axis, or along the profile.
-const PLACE: Quantity = Quantity {
-    name: "place r or x",
-    dimension: Dimension::Length,
-    called: &[
-        "r",
-        "x",
-        "radius",
-        "distance",
-        "position",
-        "abstand",
-        "weg",
-        "rayon",
-        "distance x",
-        "abscissa",
-    ],
-    example: "r_um",
-};
-
-/// Height over it.
-const HEIGHT: Quantity = Quantity {
-    name: "height z",
-    dimension: Dimension::Length,
-    called: &[
-        "z", "height", "profile", "hohe", "hoehe", "profil", "hauteur", "altezza", "altura", "ordinate",
-    ],
-    example: "z_um",
-};
 
 /// An outline that was read, with what is needed to point at its lines later.
 pub struct ReadProfile {
@@ -124,7 +95,7 @@ struct Outline {
 /// Reads a text.
 fn parse(text: &str) -> Result<Outline, TextError> {
     let named = Asked { needs_all: true, ..Asked::default() };
-    let mut table = read_series(text, &[PLACE, HEIGHT], &named)?;
+    let mut table = profile::read(text, [PLACE, HEIGHT], &named)?;
     let Series { rows: mut points, mut lines, .. } = table.series.swap_remove(0);
     if let Some(second) = table.series.first() {
         let message = "begins a second outline: keep one in a file";
