@@ -75,7 +75,8 @@ pub const HEIGHT: Quantity = Quantity {
     example: "z_um",
 };
 
-/// Reads `columns` of places and heights; of a table of nothing but x and y, as Gwyddion exports a profile, y is the height.
+/// Reads `columns` of places and heights; of a table of nothing but x and y, as Gwyddion exports a profile,
+/// y is the height.
 ///
 /// # Errors
 /// As for [`read_series`].
