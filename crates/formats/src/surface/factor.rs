@@ -18,7 +18,7 @@ pub(super) struct Factor {
 const FACTORS: [&str; 7] =
     ["scale", "factor", "faktor", "multiplier", "scaling", "calibration", "kalibrierung"];
 /// Names of a step.
-const STEPS: [&str; 4] = ["lsb", "resolution", "increment", "step"];
+const STEPS: [&str; 3] = ["lsb", "resolution", "increment"];
 /// Words of what a whole number is worth, of heights unless of something else.
 const WORTHS: [&str; 13] = [
     "gain",
@@ -58,11 +58,12 @@ impl Factor {
         let key = remark.key.as_str();
         let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
         let is_unit = key == "unit" && number != 1.0 && Dimension::Length.scale(rest.trim()).is_some();
-        // 1 nm may be the worth of a whole number
-        let is_other_than_one = number != 1.0 || !rest.trim().is_empty();
-        let is_one = (has(&FACTORS) || has(&STEPS)) && has(&HEIGHTS) && is_other_than_one
-            || ["bit2nm", "lsb"].contains(&key)
-            || ["scale", "scaling"].contains(&key) && number != 1.0
+        // 1 nm/LSB may be another unit than is named; a step height is a result, a scale of 10 um a bar
+        let is_step = key.ends_with(" step");
+        let is_other_than_one = number != 1.0 || rest.contains('/') || is_step;
+        let is_one = (has(&FACTORS) || has(&STEPS) || is_step) && has(&HEIGHTS) && is_other_than_one
+            || ["bit2nm", "lsb"].contains(&key) && number != 1.0
+            || ["scale", "scaling"].contains(&key) && number != 1.0 && rest.trim().is_empty()
             || has(&WORTHS) && !has(&OTHERS) && number != 1.0;
         // with a unit it may be a range or a step of the digits
         let is_factor = is_unit || has(&FACTORS) && has(&HEIGHTS) && rest.trim().is_empty();

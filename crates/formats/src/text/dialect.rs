@@ -93,6 +93,11 @@ pub(super) fn is_written_as_number(cell: &str) -> bool {
     looks_like_number(cell) && !is_date(cell)
 }
 
+/// True of a number by its characters, with a unit behind it or not: no note with a comma in it.
+fn is_number_or_measured(cell: &str) -> bool {
+    looks_like_number(cell.trim_end_matches(|c: char| c.is_alphabetic() || "%‰ ".contains(c)))
+}
+
 /// True of a row of numbers: at least half of its words are numbers, and it begins with one or with a word
 /// that means that there is none. A row of several such words alone is one too: the edge of a masked map.
 pub(super) fn is_row(line: &str) -> bool {
@@ -165,7 +170,7 @@ impl Dialect {
             return Ok(point);
         }
         for (line, row) in rows().filter(|(_, row)| row.contains(',')) {
-            for cell in point.cells(row).filter(|cell| cell.contains(',')) {
+            for cell in point.cells(row).filter(|cell| cell.contains(',') && is_number_or_measured(cell)) {
                 match is_decimal_comma(cell) {
                     Some(true) => return Ok(Dialect { decimal: Decimal::Comma, ..point }),
                     Some(false) => return Ok(point),

@@ -55,6 +55,21 @@ const SUMMARIES: [&str; 14] = [
     "moyenne",
 ];
 
+/// Names of segments, which may stand before their first reading alone.
+const SEGMENTS: [&str; 11] = [
+    "load",
+    "loading",
+    "hold",
+    "holding",
+    "unload",
+    "unloading",
+    "segment",
+    "approach",
+    "surface",
+    "reload",
+    "reloading",
+];
+
 /// Words of a factor of a column.
 const FACTORS: [&str; 6] = ["factor", "faktor", "facteur", "fattore", "multiplier", "scaling"];
 
@@ -241,7 +256,8 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let cells = header_cells(&self.dialect, line, None);
         waits
             && cells.len() > 1
-            && cells.iter().all(|cell| is_unit(cell) || ["", "-", "1"].contains(&&**cell))
+            && cells.iter().any(|cell| is_unit(cell))
+            && cells.iter().all(|cell| is_unit(cell) || ["", "-", "1", "#"].contains(&&**cell))
     }
 
     /// True of a line behind the table: words end it, and numbers below those are no readings.
@@ -252,7 +268,13 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let is_word = |cell: &str| !cell.is_empty() && self.dialect.measured(cell).is_none();
         let is_words = !is_row(text.trim()) && self.dialect.cells(text).next().is_some_and(is_word);
         let is_summary = cells.first().is_some_and(|cell| SUMMARIES.contains(&folded(cell).as_str()));
-        if is_words && (block.has_plain_rows || is_summary) {
+        // a segment begins in the row of its first reading
+        let is_number = |pick: &Pick| {
+            cells.get(pick.column).is_some_and(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()))
+        };
+        let begins_segment = cells.first().is_some_and(|cell| SEGMENTS.contains(&folded(cell).as_str()))
+            && columns.picks[0].iter().all(is_number);
+        if is_words && (block.has_plain_rows && !begins_segment || is_summary) {
             let names = cells.iter().filter(|cell| is_word(cell)).count();
             let least = if self.dialect.separator == Separator::Blanks { columns.width } else { 2 };
             let allowed = match names >= least.max(2) {

@@ -43,6 +43,14 @@ fn a_scale_of_whole_numbers_is_asked_about() {
     }
 }
 
+#[test]
+fn a_step_height_and_a_scale_bar_are_no_factors() {
+    for words in ["Step height: 180 nm", "Scale bar: 10 um", "Z scale: 1 nm", "Scale: 1"] {
+        let map = found(&format!("Z unit: nm\n{words}\n{MAP}")).unwrap();
+        assert_eq!(map.height_unit, Some(1e-9), "{words}");
+    }
+}
+
 /// Columns of rows and columns were proposed as x and y in turn: the map lay on its side.
 #[test]
 fn a_proposal_of_columns_takes_rows_for_y_and_heights_for_z() {

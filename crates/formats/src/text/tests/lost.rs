@@ -94,3 +94,26 @@ fn titles_of_numbers_and_an_underscore_are_titles() {
 fn beside_micrometres_in_capitals_mn_is_a_millinewton() {
     is_the_curve("Depth [UM]\tLoad [MN]\n0.1\t2\n0.2\t8\n", COLUMNS);
 }
+
+/// Notes of an operator, times of a day and places in a grid made all decimals commas.
+#[test]
+fn a_comma_in_a_note_says_nothing_of_decimals() {
+    for note in ["rate 0,5 mN/s", "points 12,13", "(1,2)", "14:02:01,001"] {
+        is_the_curve(&format!("Depth (um)\tLoad (mN)\tNote\n0.1\t2.0\t\n0.2\t8.0\t{note}\n"), COLUMNS);
+        is_the_curve(&format!("Depth (um)\tLoad (mN)\tNote\n0,1\t2,0\t\n0,2\t8,0\t{note}\n"), COLUMNS);
+    }
+}
+
+/// KLA writes the name of a segment before its first reading alone, and a sign of numbers above row numbers.
+#[test]
+fn a_segment_is_named_in_the_row_of_its_first_reading() {
+    let rows = "Load,0.1,2\nHold,0.2,8\n";
+    is_the_curve(&format!("Segment,Depth (um),Load (mN)\n{rows}"), COLUMNS);
+    let table = indentation::read(
+        "Segment,Depth (um),Load (mN)\nLoad,0.05,0.5\n,0.1,2\nHold,0.2,8\n,0.2,8\nUnload,0.1,1\n,0.05,0\n",
+        COLUMNS,
+        None,
+    );
+    assert_eq!(table.unwrap().series[0].rows.len(), 6);
+    is_the_curve("Segment\tDepth\tLoad\n#\tum\tmN\n1\t0.1\t2\n1\t0.2\t8\n", COLUMNS);
+}
