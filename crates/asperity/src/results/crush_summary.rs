@@ -315,22 +315,17 @@ impl Summary {
         let work = work_to_keep(over);
         match self.rounds {
             _ if self.scene.mesh.is_some() => "the mesh is given, and stays; give a finer one".into(),
-            1 => {
-                let why = match &self.scene.numerics {
-                    numerics if numerics.elements_in_contact.is_some() => {
-                        "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact"
-                    }
-                    numerics if numerics.refine == Some(false) => {
-                        "it was to run once; without --no-refine, or numerics.refine = false,"
-                    }
-                    _ => {
-                        return format!(
-                            "no finer run came to its end; give a larger numerics.elements_in_contact, at about {work:.0} times the work"
-                        );
-                    }
-                };
-                format!("{why} the run is refined by itself, at about {work:.0} times the work")
-            }
+            1 if self.scene.numerics.elements_in_contact.is_some() => format!(
+                "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact the run is refined by itself, at \
+                 about {work:.0} times the work"
+            ),
+            1 if self.scene.numerics.refine == Some(false) => format!(
+                "it was to run once; without --no-refine, or numerics.refine = false, the run is refined by itself, at about {work:.0} \
+                 times the work"
+            ),
+            1 => format!(
+                "no finer run came to its end; give a larger numerics.elements_in_contact, at about {work:.0} times the work"
+            ),
             rounds => format!(
                 "{rounds} rounds of finer numbers did not bring it below; that would take about {work:.0} times the work of the last one, \
                  with a larger numerics.elements_in_contact"

@@ -209,9 +209,11 @@ impl Described {
 
     fn take_length(&mut self, remark: &Remark) {
         let key = remark.key.as_str();
+        if !Sides::is_side(key) && !LENGTH.contains(&key) {
+            return;
+        }
         let text = remark.text.to_lowercase();
-        let is_other = OF_THE_CAMERA.iter().any(|word| text.contains(word));
-        if is_other || !Sides::is_side(key) && !LENGTH.contains(&key) {
+        if OF_THE_CAMERA.iter().any(|word| text.contains(word)) {
             return;
         }
         let numbers = remark.numbers(self.decimal);

@@ -272,9 +272,11 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let is_number = |pick: &Pick| {
             cells.get(pick.column).is_some_and(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()))
         };
-        let begins_segment = cells.first().is_some_and(|cell| SEGMENTS.contains(&folded(cell).as_str()))
-            && columns.picks[0].iter().all(is_number);
-        if is_words && (block.has_plain_rows && !begins_segment || is_summary) {
+        let begins_segment = || {
+            cells.first().is_some_and(|cell| SEGMENTS.contains(&folded(cell).as_str()))
+                && columns.picks[0].iter().all(is_number)
+        };
+        if is_words && (is_summary || block.has_plain_rows && !begins_segment()) {
             let names = cells.iter().filter(|cell| is_word(cell)).count();
             let least = if self.dialect.separator == Separator::Blanks { columns.width } else { 2 };
             let allowed = match names >= least.max(2) {
@@ -343,20 +345,17 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             return Ok(());
         };
         let more = row.get(columns.width..).and_then(|more| more.iter().find(|cell| !cell.is_empty()));
-        if let Some(cell) = more.filter(|cell| !is_written_as_number(cell))
-            && self.dialect.separator == Separator::Mark(',')
-        {
-            let cell = shortened(cell);
-            let message =
-                format!("has \"{cell}\" beyond the columns of the header: give them a name, or delete it");
-            return Err(TextError::new(line, message));
-        }
-        if more.is_some() && self.dialect.separator == Separator::Mark(',') {
-            let message = format!(
-                "has {} cells below {} of the header: a decimal comma needs columns that semicolons or tabs part; else give every column a name",
-                row.len(),
-                columns.width
-            );
+        if let Some(cell) = more.filter(|_| self.dialect.separator == Separator::Mark(',')) {
+            let message = if is_written_as_number(cell) {
+                format!(
+                    "has {} cells below {} of the header: a decimal comma needs columns that semicolons or tabs part; else give every column a name",
+                    row.len(),
+                    columns.width
+                )
+            } else {
+                let cell = shortened(cell);
+                format!("has \"{cell}\" beyond the columns of the header: give them a name, or delete it")
+            };
             return Err(TextError::new(line, message));
         }
         for (k, picks) in columns.picks.iter().enumerate() {
