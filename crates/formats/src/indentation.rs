@@ -137,8 +137,10 @@ pub fn read_as(
     join_parts(&mut table);
     part_tests(&mut table);
     for test in &table.series {
+        refuse_disorder(test)?;
         refuse_lone(test, table.scales)?;
         refuse_negative(test, &table.names, turned)?;
+        refuse_reverse(test)?;
         refuse_baseline(test)?;
     }
     Ok(table)
@@ -268,6 +270,71 @@ fn refuse_negative(test: &Series<2>, names: &[String; 2], turned: [bool; 2]) -> 
         key(1)
     );
     Err(TextError::new(test.lines[at], message))
+}
+
+/// Fewest readings that show whether a test stands in the order of time.
+const MIN_ORDERED: usize = 30;
+/// Size over the range of a test from which a step back and forth is none of noise.
+const JUMP_SIZE: f64 = 0.1;
+/// Such turns over all readings in rows without an order: cycles of a few readings have fewer.
+const TURNS_WITHOUT_ORDER: f64 = 0.3;
+/// Such turns in rows sorted by the other quantity: none belongs to a test that goes one way.
+const TURNS_OF_SORTED: usize = 3;
+
+/// Refuses a test that jumps back and forth: rows sorted by depth hold readings of both branches in turn.
+///
+/// # Errors
+/// Such a test.
+fn refuse_disorder(test: &Series<2>) -> Result<(), TextError> {
+    let rows = &test.rows;
+    for (k, quantity) in [DEPTH, FORCE].iter().enumerate().filter(|_| rows.len() >= MIN_ORDERED) {
+        let values = || rows.iter().map(|row| row[k]);
+        let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+        let turns = (1..rows.len() - 1).filter(|i| {
+            let [before, after] = [rows[*i][k] - rows[i - 1][k], rows[i + 1][k] - rows[*i][k]];
+            before * after < 0.0 && before.abs().min(after.abs()) > JUMP_SIZE * range
+        });
+        let turns: Vec<usize> = turns.collect();
+        let is_sorted = rows.is_sorted_by(|a, b| a[1 - k] <= b[1 - k]);
+        let is_without_order = turns.len() as f64 > TURNS_WITHOUT_ORDER * rows.len() as f64;
+        if is_without_order || is_sorted && turns.len() >= TURNS_OF_SORTED {
+            let message = format!(
+                "the {} jumps back and forth here and in {} other readings: the rows are not in the order in which they were measured; sort them by time",
+                quantity.name,
+                turns.len() - 1
+            );
+            return Err(TextError::new(test.lines[turns[0]], message));
+        }
+    }
+    Ok(())
+}
+
+/// Work that a test returns over the work that was put into it from which its rows run backwards.
+const MOST_RETURNED: f64 = 1.1;
+/// Force over the largest one up to which a test begins and ends without a load.
+const UNLOADED_SHARE: f64 = 0.2;
+
+/// Refuses a test that returns more work than was put into it: its last row was measured first.
+///
+/// # Errors
+/// Such a test.
+fn refuse_reverse(test: &Series<2>) -> Result<(), TextError> {
+    let most = test.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let is_free = |row: Option<&[f64; 2]>| row.is_some_and(|row| row[1].abs() < UNLOADED_SHARE * most);
+    let works = test.rows.windows(2).map(|two| 0.5 * (two[0][1] + two[1][1]) * (two[1][0] - two[0][0]));
+    let (put_in, returned) = works.fold((0.0, 0.0), |(put_in, returned), work| {
+        if work > 0.0 { (put_in + work, returned) } else { (put_in, returned - work) }
+    });
+    let is_reverse = test.rows.len() >= MIN_ORDERED && returned > MOST_RETURNED * put_in;
+    if !is_reverse || !is_free(test.rows.first()) || !is_free(test.rows.last()) {
+        return Ok(());
+    }
+    let message = format!(
+        "the test returns {:.4} uJ and takes {:.4} uJ, as if its last row had been measured first: turn the order of the rows",
+        1e6 * returned,
+        1e6 * put_in
+    );
+    Err(TextError::new(test.lines[0], message))
 }
 
 /// Fewest readings of a test in which one can be told to stand alone.

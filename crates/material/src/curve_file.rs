@@ -31,10 +31,11 @@ pub struct CurveFile {
 /// Strains above it are doubted where the file names no unit: tests seldom reach them, but percent do.
 const LARGEST_STRAIN: f64 = 1.0;
 
-/// The same under a name by which a share is meant: that of our own files, that of finite elements, that of
+/// The same under a name by which a share is meant: that of our own files, those of finite elements, those of
 /// forming.
 const LARGEST_SHARE: f64 = 5.0;
-const SHARES: [&str; 3] = [STRAIN.example, "peeq", "umformgrad"];
+const SHARES: [&str; 5] =
+    [STRAIN.example, "peeq", "equivalent plastic strain", "plastische vergleichsdehnung", "umformgrad"];
 
 /// Accumulated plastic strain.
 const STRAIN: Quantity = Quantity {
@@ -102,6 +103,8 @@ const SOME: Quantity = Quantity {
         "eps",
         "epsilon",
         "ε",
+        "phi",
+        "φ",
     ],
     example: "plastic_strain",
     ..STRAIN
@@ -122,6 +125,9 @@ const STRESS: Quantity = Quantity {
         "σ",
         "σ y",
         "kf",
+        "mises",
+        "s mises",
+        "vergleichsspannung",
         "fliessspannung",
         "wahre spannung",
         "spannung",
@@ -152,7 +158,8 @@ impl Columns {
         if let Some(second) = series.first() {
             return Err(TextError::new(second.lines[0], "begins a second curve: keep one in a file"));
         }
-        let is_share = SHARES.contains(&name.to_lowercase().as_str());
+        let written = name.to_lowercase();
+        let is_share = SHARES.iter().any(|share| written.starts_with(share));
         let bound = if is_share { LARGEST_SHARE } else { LARGEST_STRAIN };
         let largest = points.iter().zip(&lines).find(|(p, _)| p[0] > bound && !have_units[0]);
         if let Some((p, line)) = largest {
@@ -294,8 +301,13 @@ mod tests {
             ("log. plastic strain (µm/m),stress MPa", 1e6),
             ("accumulated plastic strain (in/in),stress (MPa)", 1.0),
             ("plastic strain (),engineering stress (MPa),true stress (MPa)", 1.0),
+            ("plastic strain;true stress\n-;MPa", 1.0),
+            ("plastic strain;true stress\n1;MPa", 1.0),
+            ("plastic strain;true stress\n[-];[MPa]", 1.0),
+            ("PEEQ,\"S, Mises (MPa)\"", 1.0),
+            ("Umformgrad φ,kf (MPa)", 1.0),
         ] {
-            let mark = if head.contains('\t') { '\t' } else { ',' };
+            let mark = *['\t', ';'].iter().find(|mark| head.contains(**mark)).unwrap_or(&',');
             let engineers = if head.contains("engineering") { ",270" } else { "" };
             let row = |strain: f64, stress: f64| format!("{}{engineers}{mark}{stress}\n", strain * factor);
             let text = format!("{head}\n{}{}", row(0.0, 300.0), row(0.01, 412.5));
@@ -309,6 +321,9 @@ mod tests {
             CurveFile::parse("plastic strain [1],stress (MPa)\n0,300\n6,400", MODULUS).unwrap().points[1][0],
             6.0
         );
+        let equivalent =
+            CurveFile::parse("Equivalent plastic strain,Stress (MPa)\n0,300\n1.5,400", MODULUS).unwrap();
+        assert_eq!(equivalent.points[1][0], 1.5);
         for (text, words) in [
             ("plastic strain furlong,stress MPa\n0,300\n1,360", "\"furlong\""),
             ("stress MPa,% plastic strain\n300,0\n360,1", "\"%\""),
@@ -316,6 +331,11 @@ mod tests {
             ("plastic strain,engineering stress (MPa)\n0,300\n1,360", "σ (1 + ε)"),
             ("plastic strain,nominal stress [MPa]\n0,300\n1,360", "σ (1 + ε)"),
             ("engineering plastic strain,true stress [MPa]\n0,300\n1,360", "ln(1 + ε)"),
+            ("plastic strain,plastic strain corrected,stress (MPa)\n0,0,300\n1,0.9,360", "may all be"),
+            (
+                "plastic strain,true stress (MPa),corrected true stress (MPa)\n0,300,300\n1,360,350",
+                "may all be",
+            ),
             ("plastic strain,shear stress (MPa)\n0,300\n1,360", "\"shear\""),
             ("plastic strain,stress x 10 (MPa)\n0,300\n1,360", "\"x 10\""),
         ] {

@@ -33,7 +33,7 @@ const RANK_OF_DOUBT: u8 = 20;
 
 /// Words of a stress or a strain that change nothing of it: a name with others is not taken, for they may be
 /// a unit, or make another quantity of it.
-const HARMLESS: [&str; 46] = [
+const HARMLESS: [&str; 52] = [
     "true",
     "cauchy",
     "real",
@@ -80,6 +80,12 @@ const HARMLESS: [&str; 46] = [
     "kf",
     "abs",
     "absolute",
+    "phi",
+    "φ",
+    "corrected",
+    "korrigiert",
+    "corrige",
+    "corrigee",
 ];
 /// Words of the force over the area before the test and of the growth over the length before it.
 const OF_ENGINEERS: [&str; 15] = [
@@ -237,7 +243,8 @@ impl Heading {
         // that of the sample beside that of the drive is asked about, and so is one with less in it
         let ends = ["into surface", "on sample", "sample displacement", "from preload", "above surface"];
         let is_of_curve = matches!(quantity.dimension, Dimension::Length | Dimension::Force);
-        let is_less = is_of_curve && has(&["corrected", "korrigiert", "corrige", "corrigee", "net", "true"]);
+        let is_less =
+            has(&["corrected", "korrigiert", "corrige", "corrigee"]) || is_of_curve && has(&["net", "true"]);
         let is_asked = is_less || ends.iter().any(|end| self.name.ends_with(end));
         Some(if doubt == 0 && is_asked { 0 } else { rank })
     }

@@ -117,6 +117,11 @@ struct Reader<'q, 't, const N: usize> {
     factor: Option<(usize, &'t str)>,
 }
 
+/// True of a unit, or of what stands in its place where a column has none.
+fn is_unit_or_none(cell: &str) -> bool {
+    is_unit(cell) || ["", "-", "–", "—", "1", "#"].contains(&cell)
+}
+
 /// True of a line like `Load factor: 0.5`. Nothing tells whether the numbers below hold the factor already.
 fn names_factor(line: &str) -> bool {
     let Some((key, value)) = line.split_once([':', '=', '\t', ';']) else { return false };
@@ -187,7 +192,13 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         if self.declares(line, bare) {
             return Ok(());
         }
-        if is_comment(bare) && !self.are_units(bare) {
+        if self.are_units(bare) {
+            if let Some(block) = self.block.as_mut() {
+                block.header.units = Some(text);
+            }
+            return Ok(());
+        }
+        if is_comment(bare) {
             let content = uncommented(bare);
             // a header behind the sign of a comment, as NumPy writes it; said again it begins another test
             let repeats = self.block.as_ref().is_some_and(|block| block.header.text.trim() == content);
@@ -250,14 +261,14 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         is_one && is_no_header()
     }
 
-    /// True of a line below a header that holds units alone: "%;MPa" is no comment.
+    /// True of a line below a header that holds units alone: "%;MPa" is no comment, "-;MPa" no row.
     fn are_units(&self, line: &str) -> bool {
         let waits = self.block.as_ref().is_some_and(|b| b.columns.is_none() && b.header.units.is_none());
         let cells = header_cells(&self.dialect, line, None);
         waits
             && cells.len() > 1
-            && cells.iter().any(|cell| is_unit(cell))
-            && cells.iter().all(|cell| is_unit(cell) || ["", "-", "1", "#"].contains(&&**cell))
+            && cells.iter().any(|cell| is_unit(unbracketed(cell)))
+            && cells.iter().all(|cell| is_unit_or_none(unbracketed(cell)))
     }
 
     /// True of a line behind the table: words end it, and numbers below those are no readings.

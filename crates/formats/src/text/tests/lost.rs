@@ -117,3 +117,40 @@ fn a_segment_is_named_in_the_row_of_its_first_reading() {
     assert_eq!(table.unwrap().series[0].rows.len(), 6);
     is_the_curve("Segment\tDepth\tLoad\n#\tum\tmN\n1\t0.1\t2\n1\t0.2\t8\n", COLUMNS);
 }
+
+/// F = h² up to 1 and F = (5 h - 4)² from there back to 0.8, in the order of time.
+fn loop_of_a_cone() -> Vec<[f64; 2]> {
+    let up = (0..=40).map(|i| f64::from(i) / 40.0).map(|h| [h, h * h]);
+    let down = (1..=40).map(|i| 1.0 - f64::from(i) / 200.0).map(|h| [h, (5.0 * h - 4.0).powi(2)]);
+    up.chain(down).collect()
+}
+
+fn written(rows: &[[f64; 2]]) -> String {
+    let rows: String = rows.iter().map(|[depth, force]| format!("{depth},{force}\n")).collect();
+    format!("Depth (um),Load (mN)\n{rows}")
+}
+
+/// A database hands rows out by a value; a logger writes the last one first.
+#[test]
+fn rows_out_of_the_order_of_time_are_refused() {
+    let rows = loop_of_a_cone();
+    let read = |rows: &[[f64; 2]]| indentation::read(&written(rows), COLUMNS, None);
+    assert_eq!(read(&rows).unwrap().series[0].rows.len(), rows.len());
+    let mut backwards = rows.clone();
+    backwards.reverse();
+    let fault = read(&backwards).unwrap_err().message;
+    assert!(fault.contains("turn the order of the rows"), "{fault}");
+    for k in [0, 1] {
+        let mut sorted = rows.clone();
+        sorted.sort_by(|a, b| a[k].total_cmp(&b[k]));
+        let fault = read(&sorted).unwrap_err().message;
+        assert!(fault.contains("sort them by time"), "{k}: {fault}");
+    }
+    // an elastic test gives its work back, and a test may go up and down as often as it likes
+    let way_in = &rows[..=40];
+    let mut elastic = way_in.to_vec();
+    elastic.extend(way_in.iter().rev());
+    assert!(read(&elastic).is_ok());
+    let cycles: Vec<[f64; 2]> = (0..6).flat_map(|_| elastic.iter().step_by(5).copied()).collect();
+    assert!(read(&cycles).is_ok());
+}
