@@ -56,6 +56,8 @@ pub struct FarField {
     pub freedom: f64,
     /// Mean distance from the axis, m.
     pub place: f64,
+    /// Variance of one height of a map of whose rings the noise is, m².
+    pub of_one_height: Option<f64>,
 }
 
 /// Residual height far outside of a contact of the radius `radius` over its size at the rim: what yields is
@@ -106,7 +108,7 @@ pub fn far_field(points: &[[f64; 2]], radius: f64, length: Option<f64>) -> Optio
         .map(|((_, part), weight)| NoisePart { variance: part.variance * weight / all, ..*part })
         .collect();
     let place = sides.iter().flatten().map(|p| p[0].abs()).sum::<f64>() / count as f64;
-    (!parts.is_empty()).then_some(FarField { parts, freedom, place })
+    (!parts.is_empty()).then_some(FarField { parts, freedom, place, of_one_height: None })
 }
 
 /// Sum of squares that the smooth terms leave of one side, in units of noise of the variance 1, and the

@@ -7,6 +7,7 @@
 
 use crate::far_field::{FAR_RADII, FarField, MIN_FAR_POINTS, NoisePart, apart, far_field};
 use crate::interpolation::{alike, linear_between, smooth};
+use crate::rings::{Ring, noise_of_means};
 use asperity_simulation::scene::Accuracy;
 use nalgebra::DMatrix;
 
@@ -73,8 +74,8 @@ pub struct Imprint {
     pub noise: Vec<NoisePart>,
     /// Degrees of freedom of the noise where the far field tells it; `None` where it is stated or assumed.
     pub noise_freedom: Option<f64>,
-    /// Distance from the axis (m) at which heights that are means over rings have that noise: of a map whose
-    /// far field tells it; `None` where all heights have it.
+    /// Distance from the axis (m) at which heights that are means over rings have that noise, of a map whose
+    /// far field tells it or how it is alike; `None` where all heights have it.
     pub ring: Option<f64>,
     /// Remarks.
     pub notes: Vec<String>,
@@ -83,7 +84,7 @@ pub struct Imprint {
 /// Noise of a profile as a person states it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StatedNoise {
-    /// Standard deviation of a height, m.
+    /// Standard deviation of a height, of a map of one of its heights, m.
     pub noise: Option<f64>,
     /// Distance over which heights are off alike, m.
     pub correlation_length: Option<f64>,
@@ -91,20 +92,23 @@ pub struct StatedNoise {
 
 impl Imprint {
     /// Makes `points` (place and height, m) ready for an imprint of about the contact radius `radius`; they
-    /// are those of one line, or `are_means` over rings of a map.
+    /// are those of one line, or the means of as many `rings` of a map.
     ///
     /// # Errors
     /// The fault of the profile, with a way out.
     pub fn new(
-        (points, are_means): (&[[f64; 2]], bool),
+        (points, rings): (&[[f64; 2]], &[Ring]),
         radius: f64,
         depth: f64,
         stated: StatedNoise,
     ) -> Result<Imprint, String> {
-        let mut points: Vec<[f64; 2]> =
-            points.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        points.retain(|p| p[0].abs() <= FARTHEST_RADII * radius);
+        let are_means = !rings.is_empty();
+        let with_rings = points.iter().enumerate().map(|(i, p)| (*p, rings.get(i).copied()));
+        let is_within =
+            |p: &[f64; 2]| p.iter().all(|x| x.is_finite()) && p[0].abs() <= FARTHEST_RADII * radius;
+        let mut with_rings: Vec<_> = with_rings.filter(|(p, _)| is_within(p)).collect();
+        with_rings.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+        let points: Vec<[f64; 2]> = with_rings.iter().map(|(p, _)| *p).collect();
         if points.len() < MIN_FAR_POINTS {
             return Err(format!(
                 "has {} points within {:.3} um of the axis, too few for an imprint: give r (0 on the axis) and z of the surface after unloading",
@@ -137,11 +141,17 @@ impl Imprint {
                 1e6 * middle
             ));
         }
-        let stretches = points.chunks(points.len().div_ceil(KEPT_POINTS));
+        let stretch = points.len().div_ceil(KEPT_POINTS);
+        let of_a_stretch = |part: &[([f64; 2], Option<Ring>)]| {
+            part.iter().filter_map(|(_, ring)| *ring).fold(Ring::default(), |all, ring| all.with(&ring))
+        };
+        let rings: Vec<Ring> = with_rings.chunks(stretch).map(of_a_stretch).collect();
+        let stretches = points.chunks(stretch);
         let places = stretches.clone().map(|part| part.iter().map(|p| p[0]).collect()).collect();
         let points: Vec<[f64; 2]> = stretches.map(mean).collect();
         let mut notes = Vec::new();
-        let far = far_field(&points, radius, stated.correlation_length);
+        let of_rings = noise_of_means(&rings, radius, stated.correlation_length);
+        let far = of_rings.or_else(|| far_field(&points, radius, stated.correlation_length));
         if far.is_none() && stated.noise.is_none() {
             notes.push(format!(
                 "the imprint has fewer than {MIN_FAR_POINTS} points beyond {FAR_RADII} contact radii that would tell its noise: {} % of the depth is taken; state it",
@@ -151,7 +161,9 @@ impl Imprint {
         Ok(Imprint {
             noise: noise(far.as_ref(), stated, depth),
             noise_freedom: far.as_ref().filter(|_| stated.noise.is_none()).map(|far| far.freedom),
-            ring: far.filter(|_| are_means && stated.noise.is_none()).map(|far| far.place),
+            ring: far
+                .filter(|far| far.of_one_height.is_some() || are_means && stated.noise.is_none())
+                .map(|far| far.place),
             points,
             places,
             notes,
@@ -222,7 +234,11 @@ fn noise(far: Option<&FarField>, stated: StatedNoise, depth: f64) -> Vec<NoisePa
     let told = far.map_or_else(Vec::new, |far| far.parts.clone());
     let sum = told.iter().map(|part| part.variance).sum::<f64>();
     let assumed = if far.is_none() { ASSUMED_NOISE_SHARE * depth } else { sum.sqrt() };
-    let deviation = stated.noise.unwrap_or(assumed).max(MIN_NOISE_SHARE * depth);
+    // what is stated of a height of a map shrinks in a ring as what is seen there does
+    let shown = far.and_then(|far| far.of_one_height).filter(|shown| *shown > 0.0);
+    let shrinks = shown.map_or(1.0, |shown| (sum / shown).sqrt());
+    let given = stated.noise.map(|noise| shrinks * noise);
+    let deviation = given.unwrap_or(assumed).max(MIN_NOISE_SHARE * depth);
     let variance = deviation * deviation;
     if sum <= f64::MIN_POSITIVE * 1e3 {
         return vec![NoisePart { variance, length: stated.correlation_length.unwrap_or(0.0) }];
@@ -327,7 +343,7 @@ mod tests {
     fn means_over_a_bent_rim_are_compared_with_means() {
         let points: Vec<[f64; 2]> =
             (0..360).map(|i| 0.0247e-6 * f64::from(i)).map(|r| [r, 1e-6 * profile(1e6 * r)]).collect();
-        let imprint = Imprint::new((&points, false), 3e-6, 1e-6, StatedNoise::default()).unwrap();
+        let imprint = Imprint::new((&points, &[]), 3e-6, 1e-6, StatedNoise::default()).unwrap();
         assert!(imprint.points.len() < 100);
         let read = imprint.read(|r| 1e-6 * profile(1e6 * r));
         let worst = |model: &dyn Fn(usize) -> f64| {
@@ -347,13 +363,13 @@ mod tests {
             (0..reach).map(|i| 0.1 * f64::from(i)).map(|r| [1e-6 * r, factor * 1e-6 * profile(r)]).collect()
         };
         let refused = |points: &[[f64; 2]], word: &str| {
-            let error = Imprint::new((points, false), 3e-6, 1e-6, StatedNoise::default()).unwrap_err();
+            let error = Imprint::new((points, &[]), 3e-6, 1e-6, StatedNoise::default()).unwrap_err();
             assert!(error.contains(word), "{error}");
         };
         refused(&points(-1.0, 90), "z_down = true");
         refused(&points(1.0, 25), "three radii");
         refused(&points(1.0, 4), "too few");
-        let imprint = Imprint::new((&points(1.0, 45), false), 3e-6, 1e-6, StatedNoise::default()).unwrap();
+        let imprint = Imprint::new((&points(1.0, 45), &[]), 3e-6, 1e-6, StatedNoise::default()).unwrap();
         assert!(imprint.notes[0].contains("state it"), "{:?}", imprint.notes);
     }
 
@@ -362,7 +378,7 @@ mod tests {
         let beyond = |least: f64| {
             let places = (0..90).map(|i| 0.1 * f64::from(i)).filter(|r| *r > least);
             let points: Vec<[f64; 2]> = places.map(|r| [1e-6 * r, 1e-6 * profile(r)]).collect();
-            Imprint::new((&points, false), 3e-6, 1e-6, StatedNoise::default())
+            Imprint::new((&points, &[]), 3e-6, 1e-6, StatedNoise::default())
         };
         assert!(beyond(1.5).is_ok());
         assert!(beyond(3.1).unwrap_err().contains("the imprint itself is missing"));
@@ -376,8 +392,11 @@ mod tests {
             .map(|i| (0.1 * f64::from(i), if i % 2 == 0 { 1e-9 } else { -1e-9 }))
             .map(|(r, rough)| [1e-6 * r, 1e-6 * profile(r) + rough])
             .collect();
+        // rings of which not one sector is filled leave the noise to the line of means
+        let rings = vec![Ring::default(); points.len()];
         let noise = |are_means: bool, stated: StatedNoise| {
-            let imprint = Imprint::new((&points, are_means), 3e-6, 1e-6, stated).unwrap();
+            let rings = if are_means { &rings[..] } else { &[] };
+            let imprint = Imprint::new((&points, rings), 3e-6, 1e-6, stated).unwrap();
             let ring = imprint.ring.unwrap_or(7e-6);
             imprint.of_a_ring(0.25 * ring) / imprint.of_a_ring(ring)
         };

@@ -8,6 +8,7 @@ use crate::imprint::FARTHEST_RADII;
 use crate::imprint_columns::{Table, unknown_columns};
 use crate::imprint_level::{LEVEL_RADII, level};
 use crate::imprint_profile::{Profile, line, profile};
+use crate::rings::Ring;
 use asperity_formats::surface::{self, Measured, Request, Spacing};
 use asperity_formats::units::Length;
 use asperity_numerics::least_squares;
@@ -24,6 +25,41 @@ pub struct Reading<'a> {
     pub is_down: bool,
 }
 
+/// Share by which a size has to differ from that of the file to contradict it.
+const LEAST_DIFFERENCE: f64 = 1e-4;
+
+impl Reading<'_> {
+    /// Metres of the unit of heights that is stated.
+    fn unit(&self) -> Result<Option<f64>, String> {
+        let of = |name| {
+            let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name);
+            unit.map(|(_, metres)| *metres)
+                .ok_or_else(|| format!("has no heights in \"{name}\": give height_unit, like \"nm\""))
+        };
+        self.height_unit.map(of).transpose()
+    }
+
+    /// Refuses what is stated on a map where the file is a table with a `unit` of its heights.
+    fn refuse_of_a_table(&self, unit: f64) -> Result<(), String> {
+        if self.pixel.is_some() {
+            return Err("says the places of its heights: remove pixel_size, which is of a map".into());
+        }
+        refuse_other("height_unit", Some(unit), self.unit()?, LEAST_DIFFERENCE)
+    }
+}
+
+/// Refuses a `given` size that differs from the one that the file tells by more than `share`.
+fn refuse_other(key: &str, told: Option<f64>, given: Option<f64>, share: f64) -> Result<(), String> {
+    match (told, given) {
+        (Some(told), Some(given)) if (given / told - 1.0).abs() > share => Err(format!(
+            "says {}, but {key} is {}: remove the key, or correct the file",
+            Length(told),
+            Length(given)
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// Contact radii to which ring means have to reach, that their end tells the height of the ground.
 const GROUND_RADII: f64 = 3.0;
 /// Rings of a radial mean over one contact radius: a wide one would blunt the rim.
@@ -34,8 +70,8 @@ const RINGS: f64 = 160.0;
 pub struct ImprintRead {
     /// Place and height, m.
     pub points: Vec<[f64; 2]>,
-    /// True where heights are means over rings of a map.
-    pub are_means: bool,
+    /// The rings of a map of which the heights are means; empty of a profile.
+    pub rings: Vec<Ring>,
     /// Interpretation of the file.
     pub understood: String,
 }
@@ -55,11 +91,15 @@ pub fn read(
     let Some((text, encoding)) = text else { return of_map() };
     let as_text = |Profile { points, understood }| {
         let understood = format!("{encoding} text: {understood}");
-        ImprintRead { points, are_means: false, understood }
+        ImprintRead { points, rings: Vec::new(), understood }
     };
     match Table::new(text) {
-        Ok(Table::Profile(table)) => profile(table, radius, reading.is_down).map(as_text),
+        Ok(Table::Profile(table)) => {
+            reading.refuse_of_a_table(table.scales[1])?;
+            profile(table, radius, reading.is_down).map(as_text)
+        }
         Ok(Table::Points(table)) => of_map().or_else(|no_map| {
+            reading.refuse_of_a_table(table.scales[2])?;
             let beside = format!("{no_map}; nor do the points lie on one line");
             let problem = if no_map.starts_with(UNSAID) { no_map } else { beside };
             line(table, radius, reading.is_down).unwrap_or(Err(problem)).map(as_text)
@@ -67,7 +107,7 @@ pub fn read(
         Err(no_profile) => match unknown_columns(text, &no_profile) {
             Some(unknown) => Err(unknown),
             None => of_map().map_err(|no_map| {
-                if no_map.starts_with(UNSAID) {
+                if no_map.starts_with(UNSAID) || no_map.starts_with("says ") {
                     no_map
                 } else {
                     format!("is no profile ({no_profile}), and no map: {no_map}")
@@ -120,18 +160,19 @@ fn unsaid(lacks_pixel: bool, lacks_unit: bool) -> String {
 /// Those of the radial mean of a map.
 fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, String> {
     let mut measured = surface::read(path, &Request::default()).map_err(|e| e.to_string())?;
-    let unit_of = |name: &str| {
-        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name);
-        unit.map(|(_, metres)| *metres)
-            .ok_or_else(|| format!("has no heights in \"{name}\": give height_unit, like \"nm\""))
-    };
-    let asked = reading.height_unit.map(unit_of).transpose()?;
+    let asked = reading.unit()?;
     let unit = measured.height_unit.or(asked);
-    let pixel = match (measured.spacing, unit) {
+    let told = match (measured.spacing, unit) {
         (Spacing::Metres(pixel), _) => Some(pixel),
         (Spacing::HeightUnits(pixel), Some(unit)) => Some(pixel.map(|p| p * unit)),
-        _ => reading.pixel,
+        _ => None,
     };
+    refuse_other("height_unit", measured.height_unit, asked, LEAST_DIFFERENCE)?;
+    let share = measured.spacing_error.max(LEAST_DIFFERENCE);
+    for k in [0, 1] {
+        refuse_other("pixel_size", told.map(|p| p[k]), reading.pixel.map(|p| p[k]), share)?;
+    }
+    let pixel = told.or(reading.pixel);
     let (Some(pixel), Some(unit)) = (pixel, unit) else {
         let in_height_units = matches!(measured.spacing, Spacing::HeightUnits(_));
         return Err(unsaid(pixel.is_none() && !in_height_units, unit.is_none()));
@@ -141,22 +182,27 @@ fn map(path: &Path, radius: f64, reading: Reading<'_>) -> Result<ImprintRead, St
             *z = -*z;
         }
     }
+    let missing = measured.heights.iter().filter(|z| !z.is_finite()).count();
     let understood = format!(
-        "map of {} × {} points {:.4} um apart, its radial mean about the middle of the hole",
+        "map of {} × {} points {:.4} um apart, heights in {}{}, its radial mean about the middle of the hole",
         measured.columns,
         measured.rows,
-        1e6 * pixel[0]
+        1e6 * pixel[0],
+        Length(unit).to_string().trim_start_matches("1 "),
+        if missing > 0 { format!(", {missing} of them missing") } else { String::new() }
     );
-    Ok(ImprintRead { points: radial_mean(&measured, pixel, unit, radius)?, are_means: true, understood })
+    let (points, rings) = radial_mean(&measured, pixel, unit, radius)?;
+    Ok(ImprintRead { points, rings, understood })
 }
 
-/// Mean heights over rings about the middle of the hole, levelled by a plane through what lies far from it.
+/// Mean heights over rings about the middle of the hole, levelled by a plane through what lies far from it,
+/// and the rings.
 fn radial_mean(
     measured: &Measured,
     pixel: [f64; 2],
     unit: f64,
     radius: f64,
-) -> Result<Vec<[f64; 2]>, String> {
+) -> Result<(Vec<[f64; 2]>, Vec<Ring>), String> {
     let mut points: Vec<[f64; 3]> = (0..measured.heights.len())
         .map(|k| {
             let [x, y] = [k % measured.columns, k / measured.columns].map(|i| i as f64);
@@ -166,23 +212,23 @@ fn radial_mean(
         .collect();
     let middle = level(&mut points, radius, |_| 1.0, |p| [1.0, p[0] / radius, p[1] / radius])?;
     let width = radius / RINGS;
-    let mut rings: Vec<(f64, [f64; 2])> = Vec::new();
+    let mut rings: Vec<Ring> = Vec::new();
     for p in &points {
-        let r = (p[0] - middle[0]).hypot(p[1] - middle[1]);
+        let [x, y] = [p[0] - middle[0], p[1] - middle[1]];
+        let r = x.hypot(y);
         let k = (r / width) as usize;
         if k >= rings.len() {
-            rings.resize(k + 1, (0.0, [0.0; 2]));
+            rings.resize(k + 1, Ring::default());
         }
-        let ring = &mut rings[k];
-        *ring = (ring.0 + 1.0, [ring.1[0] + r, ring.1[1] + p[2]]);
+        rings[k].take(r, y.atan2(x), p[2]);
     }
-    let mut means: Vec<[f64; 2]> =
-        rings.iter().filter(|r| r.0 > 0.0).map(|(n, sum)| sum.map(|s| s / n)).collect();
+    rings.retain(|ring| ring.mean().is_some());
+    let mut means: Vec<[f64; 2]> = rings.iter().filter_map(Ring::mean).collect();
     let ground = ground(&means, radius);
     for mean in &mut means {
         mean[1] -= ground;
     }
-    Ok(means)
+    Ok((means, rings))
 }
 
 /// Height to which ring means tend beyond the end of the pile-up, which the plane through what lies far from
@@ -221,7 +267,7 @@ mod tests {
             height_unit: Some(1.0),
             notes: Vec::new(),
         };
-        let mean = radial_mean(&measured, [pixel; 2], 1.0, 5e-6).unwrap();
+        let (mean, _) = radial_mean(&measured, [pixel; 2], 1.0, 5e-6).unwrap();
         for [r, z] in mean.iter().filter(|p| p[0] < 12e-6) {
             let cone = (0.2 * r - 1e-6).min(0.0);
             assert!((z - cone).abs() < 0.02e-6, "{r:e} {z:e} {cone:e}");

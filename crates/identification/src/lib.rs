@@ -3,7 +3,7 @@
 //! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made
 //! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
 //! ([`response`]) and between metals ([`emulator`]); pyramids as cones ([`pyramid`]); imprints ([`imprint`],
-//! [`imprint_file`]) with their noise ([`mod@far_field`]); a measurement ([`experiment`]) with its
+//! [`imprint_file`]) with their noise ([`mod@far_field`], [`rings`]); a measurement ([`experiment`]) with its
 //! covariance ([`mod@covariance`]), all of them ([`objective`]); the search ([`mod@search`],
 //! [`levenberg_marquardt`], [`branches`]); intervals ([`profile_likelihood`]), samples ([`posterior`]) and
 //! the null direction ([`identifiability`]); all that is said of the metal ([`inference`]).
@@ -21,6 +21,8 @@ pub mod parameters;
 pub mod response;
 
 pub mod far_field;
+
+pub mod rings;
 
 pub mod imprint;
 

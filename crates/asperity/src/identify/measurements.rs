@@ -193,7 +193,7 @@ pub(super) fn imprint(
         noise: table.noise.map(|l| l.0),
         correlation_length: table.correlation_length.map(|l| l.0),
     };
-    let imprint = Imprint::new((&read.points, read.are_means), radius, depth, stated).map_err(error)?;
+    let imprint = Imprint::new((&read.points, &read.rings), radius, depth, stated).map_err(error)?;
     said.understood.push(line);
     said.notes.extend(imprint.notes.iter().map(|note| format!("{name}: {note}")));
     Ok(Some(Data::Imprint(imprint)))
