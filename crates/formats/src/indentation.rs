@@ -177,6 +177,8 @@ fn join_parts(table: &mut SeriesTable<2>) {
 const DEPTH_OF_A_START: f64 = 0.1;
 /// Depth over the largest one before it from which a fall to such a start is none of an elastic unloading.
 const LEAST_FALL: f64 = 0.3;
+/// Depth and force over the largest ones before it that the next test reaches at least: it may be lighter.
+const LEAST_OF_A_TEST: [f64; 2] = [0.2, 0.03];
 /// Such a fall over the median step between readings.
 const FALL_OVER_STEPS: f64 = 5.0;
 
@@ -222,7 +224,7 @@ fn starts_of_tests(rows: &[[f64; 2]]) -> Vec<usize> {
         let goes_up = || {
             // readings of nothing end at once
             let goes_on = |two: &[[f64; 2]]| two[1][0] - two[0][0] < LEAST_FALL * most[0];
-            let reaches = |k: usize| rows[row..].iter().any(|next| next[k] >= LEAST_FALL * most[k]);
+            let reaches = |k: usize| rows[row..].iter().any(|next| next[k] >= LEAST_OF_A_TEST[k] * most[k]);
             let next = rows.get(row..=row + MOST_LONE).unwrap_or_default();
             !next.is_empty() && next.windows(2).all(goes_on) && reaches(0) && reaches(1)
         };

@@ -19,6 +19,8 @@ mod cantilever;
 
 pub mod indentation;
 
+mod heights;
+
 pub mod profile;
 
 pub mod surface;

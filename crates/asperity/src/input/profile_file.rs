@@ -12,7 +12,7 @@
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
 use crate::input::toml_file::TomlFile;
-use asperity_formats::profile::{self, HEIGHT, PLACE};
+use asperity_formats::profile;
 use asperity_formats::text::{Asked, Series, TextError};
 use asperity_simulation::scene::{Points, Scene, SceneError};
 use std::path::PathBuf;
@@ -95,7 +95,7 @@ struct Outline {
 /// Reads a text.
 fn parse(text: &str) -> Result<Outline, TextError> {
     let named = Asked { needs_all: true, ..Asked::default() };
-    let mut table = profile::read(text, [PLACE, HEIGHT], &named)?;
+    let mut table = profile::read_outline(text, &named)?;
     let Series { rows: mut points, mut lines, .. } = table.series.swap_remove(0);
     if let Some(second) = table.series.first() {
         let message = "begins a second outline: keep one in a file";

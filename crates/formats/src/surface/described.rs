@@ -167,7 +167,18 @@ impl Described {
                 let axis = name.trim().rsplit(' ').next().unwrap_or("").to_lowercase();
                 Some((axis, Dimension::Length.scale(unit.trim_matches([']', ')', ' ']))?))
             };
-            let named: Vec<(String, f64)> = text.split([',', ';', '\t']).filter_map(one).collect();
+            // "X, Y in mm": an axis without a unit is in that of the next one
+            let mut named: Vec<(String, f64)> = Vec::new();
+            let mut waiting: Vec<String> = Vec::new();
+            for piece in text.split([',', ';', '\t']) {
+                match one(piece) {
+                    Some((axis, unit)) => {
+                        named.extend(waiting.drain(..).map(|axis| (axis, unit)));
+                        named.push((axis, unit));
+                    }
+                    None => waiting.push(piece.trim().to_lowercase()),
+                }
+            }
             let of = |names: &[&str]| named.iter().find(|(axis, _)| names.contains(&&**axis)).map(|n| n.1);
             let (both, z) = (of(&["x/y", "xy"]), of(&["z"]));
             if let (Some(x), Some(y), Some(z)) = (both.or(of(&["x"])), both.or(of(&["y"])), z) {
@@ -365,6 +376,9 @@ impl Described {
     /// Distance of the points of a map of so many columns and rows, and the reason where lines on it are not
     /// certain; `uncertain` where empty cells stand at the edges.
     pub fn spacing(&self, counts: [usize; 2], uncertain: [bool; 2]) -> (Option<Spacing>, Option<String>) {
+        if let Some(doubt) = self.rows_first(counts) {
+            return (None, Some(format!("{doubt}: no size was taken from it")));
+        }
         let found = match self.sides.steps(counts, uncertain, self.aspect) {
             Ok(Some(steps)) => return (Some(Spacing::Metres(steps)), None),
             // a width of 3 of a map of 3 columns counts these
@@ -378,6 +392,17 @@ impl Described {
             Ok(steps) => (steps.map(Spacing::Numbers), None),
             Err(doubt) => (None, Some(format!("{doubt}: no size was taken from it"))),
         }
+    }
+
+    /// The doubt about two sides where the words name rows before columns.
+    fn rows_first(&self, [columns, rows]: [usize; 2]) -> Option<String> {
+        let are = |a: usize, b: usize| {
+            self.whole.windows(2).any(|two| two[0].0 == two[1].0 && [two[0].1, two[1].1] == [a, b])
+        };
+        let pair = self.sides.pair().or(self.bare.pair())?;
+        (columns != rows && are(rows, columns) && !are(columns, rows)).then(|| {
+            format!("{pair} may name y first, as the words name {rows} rows before {columns} columns")
+        })
     }
 
     /// The finding, in words.

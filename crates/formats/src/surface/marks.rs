@@ -2,6 +2,7 @@
 
 use super::measured::{ReadError, Request};
 use crate::text::TextError;
+use crate::units::rounded;
 
 const MARKS: [f64; 13] = [
     -32768.0,
@@ -19,14 +20,23 @@ const MARKS: [f64; 13] = [
     -2147483647.0,
 ];
 /// Distance of a mark from all heights, in ranges of these.
-const LEAST_DISTANCE: f64 = 3.0;
+const LEAST_DISTANCE: f64 = 1.0;
 
 /// The same of 0, which also is the floor of a map that a program made: then heights follow close above it.
 const DISTANCE_OF_ZERO: f64 = 1.0;
-/// The same of a number that is none of these, but stands there more than once.
+/// The same of a number that is none of these, but stands there more than once; and of one of a few digits
+/// that stands there more often, among heights of more.
 const DISTANCE_OF_REPEATED: f64 = 10.0;
+const DISTANCE_OF_ROUND: f64 = 1.0;
+/// Significant digits of a round number, and how often it has to stand there.
+const ROUND_DIGITS: usize = 4;
+const TIMES_OF_ROUND: usize = 3;
 /// The same of any number: no surface has a single point so far away.
 const DISTANCE_OF_ANY: f64 = 1e3;
+
+fn is_round(number: f64) -> bool {
+    !number.is_finite() || rounded(number, ROUND_DIGITS) == number
+}
 
 /// Refuses heights whose lowest or highest is such a number, far from all others.
 ///
@@ -48,6 +58,9 @@ pub(super) fn refuse(heights: &[f64], request: &Request<'_>) -> Result<(), ReadE
             _ if MARKS.contains(&end) => LEAST_DISTANCE,
             1 => DISTANCE_OF_ANY,
             _ if end == 0.0 => DISTANCE_OF_ZERO,
+            _ if count >= TIMES_OF_ROUND && is_round(end) && !heights.iter().all(|z| is_round(*z)) => {
+                DISTANCE_OF_ROUND
+            }
             _ => DISTANCE_OF_REPEATED,
         };
         if high > low && distance > least * (high - low) {

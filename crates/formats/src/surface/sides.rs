@@ -2,6 +2,7 @@
 
 use super::names::{ALONG_A_LINE, HEIGHT, LENGTH, PIXEL, SIZE, WIDTH, X, Y};
 use super::remark::Remark;
+use crate::dimension::Dimension;
 use crate::text::shortened;
 
 /// Largest difference of two claims on one step: that of rounded digits.
@@ -15,6 +16,8 @@ pub(super) struct Sides {
     scan: Option<f64>,
     /// The first line whose meaning is not certain, with the reason.
     doubt: Option<String>,
+    /// The first line with two other lengths that does not say which is that along x.
+    pair: Option<String>,
 }
 
 /// A length that a line claims.
@@ -33,6 +36,24 @@ struct Claim {
 /// A line of the file in a message.
 pub(super) fn quoted(remark: &Remark) -> String {
     format!("line {} \"{}\"", remark.line, shortened(&remark.text))
+}
+
+/// Whether the words of a line put y before x, as in `dy x dx`, `[y, x]`; `None` where they name no axes.
+fn order_of_axes(text: &str) -> Option<bool> {
+    let text = text.to_lowercase();
+    let words: Vec<&str> =
+        text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let is = |word: &str, axis: &str| word.trim_start_matches(['d', 'δ']) == axis;
+    let is_digit = |c: char| c.is_ascii_digit();
+    // the x between two sizes, or between y and x, is no axis
+    let times = |i: usize| {
+        let before = i.checked_sub(1).map_or("", |i| words[i]);
+        let after = words.get(i + 1).copied().unwrap_or("");
+        let is_size = before.starts_with(is_digit) || Dimension::Length.scale(before).is_some();
+        words[i] == "x" && (is_size && after.starts_with(is_digit) || is(before, "y") && is(after, "x"))
+    };
+    let place = |axis: &str| (0..words.len()).find(|&i| is(words[i], axis) && !times(i));
+    Some(place("y")? < place("x")?)
 }
 
 impl Sides {
@@ -68,6 +89,18 @@ impl Sides {
     /// Takes what the key of `remark` names.
     pub fn take(&mut self, remark: &Remark, lengths: &[f64], has_length: bool) {
         let key = remark.key.as_str();
+        let mut lengths = lengths.to_vec();
+        let order = order_of_axes(&remark.text);
+        if let [x, y] = lengths[..]
+            && x != y
+        {
+            match order {
+                Some(true) => lengths.reverse(),
+                Some(false) => {}
+                None => self.pair = self.pair.take().or_else(|| Some(quoted(remark))),
+            }
+        }
+        let lengths = &lengths[..];
         let Some(&first) = lengths.first() else { return };
         let is_else = |axis| axis == 1 && lengths.len() == 1 && ALONG_A_LINE.contains(&key);
         let mut set = |axis, is_step, length| {
@@ -91,6 +124,11 @@ impl Sides {
             },
             _ => self.doubt(remark, "holds more numbers than there are sides"),
         }
+    }
+
+    /// The first line with two other lengths that does not say which is that along x.
+    pub fn pair(&self) -> Option<&str> {
+        self.pair.as_deref()
     }
 
     /// Keeps the first line whose meaning is not certain.
@@ -176,5 +214,28 @@ impl Sides {
             return Err(format!("{} is the side of a map with empty {what} at its edge", best.said));
         }
         Ok(Some(step))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::order_of_axes;
+
+    #[test]
+    fn words_tell_which_of_two_sides_comes_first() {
+        for text in [
+            "Pitch (dy x dx): 3 um x 2 um",
+            "Pixel pitch (Y, X): 3 um, 2 um",
+            "Pixel size (y x x): 3 µm x 2 µm",
+            "Spacing [y, x]: 3 um, 2 um",
+        ] {
+            assert_eq!(order_of_axes(text), Some(true), "{text}");
+        }
+        for text in ["Pitch (dx x dy): 2 um x 3 um", "Pixel size X, Y: 2, 3 um", "x/y step: 2 um, 3 um"] {
+            assert_eq!(order_of_axes(text), Some(false), "{text}");
+        }
+        for text in ["Pixel size: 2 um x 3 um", "Scan size: 64x48 um", "Pixels: 2 x 3"] {
+            assert_eq!(order_of_axes(text), None, "{text}");
+        }
     }
 }

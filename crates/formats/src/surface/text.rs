@@ -10,6 +10,7 @@ use super::names::OF_HEIGHTS;
 use super::points::onto_grid;
 use super::titled;
 use crate::dimension::Dimension;
+use crate::heights;
 use crate::text::{
     Asked, Columns, Grid, Header, Quantity, Separator, Tables, TextError, decode, folded_name, header_cells,
     read_grid, shortened, uncommented,
@@ -80,11 +81,22 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         (grid.columns, grid.parts) = (columns, None);
     }
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
-    let named =
-        Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
+    let turned = request.columns[2].is_some_and(|name| name.starts_with(MINUS));
+    let columns = request.columns.map(|name| name.map(|name| name.trim_start_matches(MINUS)));
+    let named = Asked { columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
+    if !turned
+        && !request.override_file
+        && let Some((line, text)) = heights::line_of_depths(&grid.before)
+    {
+        let problem = format!(
+            "says that the numbers are depths (\"{}\"), which point down: turn their sign and delete the line, or set override = true if they are heights",
+            shortened(text)
+        );
+        return Err(TextError::new(line, problem).into());
+    }
     if let Some(columns) = named_points(&grid, &named)? {
         notes.push(columns.said.clone());
-        return points(grid, &columns, &said, request, notes);
+        return points(grid, &columns, &said, request, notes).map(|map| turned_where(turned, map));
     }
     let (columns, rows) = (grid.columns, grid.rows());
     if is_xyz && columns < 3 {
@@ -137,6 +149,18 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     Ok(Measured { columns, rows, heights: grid.values, spacing, spacing_error, height_unit, notes })
 }
 
+/// Marks before the name of a column of depths.
+const MINUS: [char; 2] = ['-', '−'];
+
+/// The map with the sign of its heights turned where it is.
+fn turned_where(is_turned: bool, mut map: Measured) -> Measured {
+    if is_turned {
+        map.heights.iter_mut().for_each(|z| *z = -*z);
+        map.notes.push("the sign of z turned".into());
+    }
+    map
+}
+
 /// Distance of the points by the places beside them.
 fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
     let [x, y] = axes.lengths()?;
@@ -175,7 +199,12 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
         let text = uncommented(text);
         if let Some(header) = Header::new(&grid.dialect, line, text, &POINT, named) {
             let header = Header { units, ..header };
-            return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
+            let columns = header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?;
+            if named.columns[2].is_none() {
+                let cells = header_cells(&grid.dialect, text, Some(grid.columns));
+                heights::refuse_several(line, &cells, columns.picks[0][2].column, named.key)?;
+            }
+            return Ok(Some(columns));
         }
         units = Some(text);
     }
@@ -212,7 +241,10 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     let third = Asked { columns: [None, None, Some("3")], ..*named };
     let header = Header::new(&grid.dialect, line, text, &POINT, &third);
     match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down) {
-        Some(header) => Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, &third, &[])?)),
+        Some(header) => {
+            heights::refuse_several(line, &cells, 2, named.key)?;
+            Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, &third, &[])?))
+        }
         None => {
             let names: Vec<String> =
                 cells.iter().take(3).map(|cell| format!("\"{}\"", shortened(cell))).collect();
@@ -224,7 +256,7 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
                 _ => [0, 1, 2],
             };
             let problem = format!(
-                "names the columns {}, and not which are x, y and z (a depth points down): say columns = {{ x = {}, y = {}, z = {} }}",
+                "names the columns {}, and not which are x, y and z: say columns = {{ x = {}, y = {}, z = {} }}, with a minus before the name of a depth",
                 names.join(", "),
                 names[x],
                 names[y],

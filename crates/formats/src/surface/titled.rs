@@ -33,6 +33,11 @@ fn refused(text: &str) -> Option<(usize, &'static str)> {
     const CODE_V: &str = "is of an interferogram of CODE V, whose heights are its numbers times WVL/SSZ um, and missing where they \
                           are NDA: export it as .xyz or .asc, or write them so in a table";
     const TECPLOT: &str = "is a zone of Tecplot packed by variables: export it packed by points (F=POINT), a point in each line";
+    const IGOR: &str = "is Igor Text, whose waves have a line for each x: transpose the wave (MatrixTranspose) and export it as a \
+                        table, or export it as .gwy or .sur";
+    if bare(text.lines().next().unwrap_or("")) == "IGOR" {
+        return Some((1, IGOR));
+    }
     let numbers = |line: &str| -> Vec<f64> {
         line.split_whitespace().map(|word| word.parse().unwrap_or(f64::NAN)).collect()
     };

@@ -174,7 +174,7 @@ impl Heading {
     /// The head `text`: `depth_um`, `Depth (nm)`, `Load [mN]`, `h/nm`, `Weg in mm`, `load_micro_N`.
     pub fn new(text: &str) -> Heading {
         let text = text.trim();
-        let (name, unit) = parts(text);
+        let (name, unit) = parts(&text.replace(['（', '［'], "(").replace(['）', '］'], ")"));
         let (name, unit) = (folded(&name), unit.map(|unit| with_case(text, unit.trim())));
         let (name, unit) = with_prefix(name, unit);
         // one word of German

@@ -63,3 +63,82 @@ fn a_proposal_of_columns_takes_rows_for_y_and_heights_for_z() {
         assert!(fault.contains(proposed), "{names}: {fault}");
     }
 }
+
+const POINTS: [[f64; 2]; 6] = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [0.0, 3.0], [2.0, 3.0], [4.0, 3.0]];
+
+fn points(names: &str, heights: impl Fn(usize) -> String) -> String {
+    let row = |(i, [x, y]): (usize, &[f64; 2])| format!("{x}\t{y}\t{}\n", heights(i));
+    std::iter::once(format!("{names}\n")).chain(POINTS.iter().enumerate().map(row)).collect()
+}
+
+#[test]
+fn two_columns_of_heights_are_asked_about() {
+    for (third, fourth) in [("Z nominal", "Z measured"), ("Height", "Height filtered"), ("Z std", "Z mean")] {
+        let names = format!("X [um]\tY [um]\t{third} [um]\t{fourth} [um]");
+        let fault = found(&points(&names, |i| format!("{i}\t{}", 2 * i))).expect_err(&names);
+        assert!(fault.contains(fourth) && fault.contains("may both be"), "{names}: {fault}");
+    }
+    let map = found(&points("X [um]\tY [um]\tZ [um]\tZ error [um]", |i| format!("{i}\t0.1"))).unwrap();
+    assert_eq!(map.heights, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+}
+
+/// A minus before the name of a column of depths was passed over.
+#[test]
+fn depths_are_refused_or_turned() {
+    for words in ["Depth map, positive values below the reference plane", "Channel: Depth", "Depth [um]"] {
+        let fault = found(&format!("{words}\n{MAP}")).expect_err(words);
+        assert!(fault.contains("point down"), "{words}: {fault}");
+    }
+    let folder = Folder::new();
+    let path = folder.file("a.txt", points("X [um]\tY [um]\tDepth [um]", |i| i.to_string()).as_bytes());
+    let columns = [Some("X"), Some("Y"), Some("-Depth")];
+    let map = read(&path, &Request { columns, ..Request::default() }).unwrap();
+    assert_eq!(map.heights, [0.0, -1.0, -2.0, -3.0, -4.0, -5.0]);
+}
+
+#[test]
+fn sides_that_put_y_first_are_turned_or_asked_about() {
+    for words in
+        ["Pixel pitch (Y, X): 3 um, 2 um", "Spacing [y, x]: 3 um, 2 um", "Pitch (dy x dx): 3 um x 2 um"]
+    {
+        let map = found(&format!("{words}\nZ unit: um\n{MAP}")).unwrap();
+        let Spacing::Metres([x, y]) = map.spacing else { panic!("{words}: {:?}", map.spacing) };
+        assert!((x / 2e-6 - 1.0).abs() < 1e-9 && (y / 3e-6 - 1.0).abs() < 1e-9, "{words}");
+    }
+    // 3 lines of 4 heights, which the words name in the order of an array
+    let map = found(&format!("Pixels: 3 x 4\nScan size: 9 um x 8 um\nZ unit: um\n{MAP}")).unwrap();
+    assert_eq!(map.spacing, Spacing::Unknown);
+    assert!(map.notes.join("; ").contains("may name y first"), "{:?}", map.notes);
+}
+
+/// Beside heights from -109 to 134, 999.9 is no height of a surface, and neither is -999 beside -217 to 268.
+#[test]
+fn a_round_number_far_from_all_heights_is_no_height() {
+    let map = |mark: &str, size: f64| {
+        let height = |i: usize| size * (1.7 * i as f64).sin() + 0.013 * i as f64;
+        let cell =
+            |i: usize| if [7, 20, 33].contains(&i) { mark.into() } else { format!("{:.3}", height(i)) };
+        let rows = (0..6).map(|j| (0..8).map(|i| cell(8 * j + i)).collect::<Vec<_>>().join(" "));
+        rows.collect::<Vec<_>>().join("\n")
+    };
+    for (mark, size) in [("999.9", 120.0), ("-999", 240.0), ("5000", 240.0), ("-1000", 120.0)] {
+        let fault = found(&map(mark, size)).expect_err(mark);
+        assert!(fault.contains(&format!("missing_value = {mark}")), "{mark}: {fault}");
+    }
+    // a spike of the surface itself
+    assert!(found(&map("400.123", 240.0)).is_ok());
+}
+
+#[test]
+fn an_axis_without_a_unit_is_in_that_of_the_next_one() {
+    let rows = points("", |i| i.to_string());
+    let map = found(&format!("# X, Y in mm, Z in um{rows}")).unwrap();
+    assert_eq!((map.spacing, map.height_unit), (Spacing::Metres([2e-3, 3e-3]), Some(1e-6)));
+}
+
+/// Igor's waves have a line for each x: read by lines the map lay on its side.
+#[test]
+fn a_wave_of_igor_is_refused_with_a_way_out() {
+    let fault = found(&format!("IGOR\nWAVES/D/N=(3,4) map\nBEGIN\n{MAP}END\n")).unwrap_err();
+    assert!(fault.contains("line for each x"), "{fault}");
+}

@@ -299,6 +299,9 @@ fn tests_below_each_other_are_parted_where_the_tool_is_at_the_surface_again() {
     assert_eq!(table.series[1].lines[0], 53);
     assert!(table.understood.contains("3 tests below each other"), "{}", table.understood);
     assert!(table.understood.contains("again at lines 53, 102"), "{}", table.understood);
+    // a lighter test below
+    let lighter = indentation::read(&text(&[test(40, 34.0), test(12, 10.0)]), COLUMNS, None).unwrap();
+    assert_eq!(lighter.series.iter().map(|test| test.rows.len()).collect::<Vec<_>>(), [51, 23]);
     // one test: reloading from the imprint, a way back that is elastic, and zeros where nothing was read
     let again: Vec<[f64; 2]> = (0..=6).map(|i| [34.0 + f64::from(i), 1600.0 * f64::from(i) / 6.0]).collect();
     let mut zeros = test(40, 34.0);
