@@ -17,8 +17,9 @@ const HEIGHTS: [&str; 12] = [
     "altitude",
     "高さ",
 ];
-/// Words that make it a column of how far heights scatter or may be trusted, or of their ends.
-const BESIDE: [&str; 22] = [
+/// Words that make it a column of how far heights scatter or may be trusted, of their ends, of what they were
+/// or were to be: one without such a word goes before it.
+const BESIDE: [&str; 32] = [
     "std",
     "stdev",
     "sd",
@@ -41,6 +42,16 @@ const BESIDE: [&str; 22] = [
     "max",
     "minimum",
     "maximum",
+    "raw",
+    "uncorrected",
+    "unfiltered",
+    "roh",
+    "brut",
+    "nominal",
+    "design",
+    "target",
+    "reference",
+    "ref",
 ];
 
 fn has(name: &str, words: &[&str]) -> bool {
@@ -81,9 +92,12 @@ const OF_A_TITLE: [&str; 22] = [
     "surface", "z", "measured", "unit", "units", "type", "signal", "display", "quantity", "name",
 ];
 
-/// The first line of `before` that says that the numbers of a map are depths: a title, a channel, a sentence
+/// Refuses a map whose lines `before` the numbers say that these are depths: a title, a channel, a sentence
 /// on where z points.
-pub(crate) fn line_of_depths<'t>(before: &[(usize, &'t str)]) -> Option<(usize, &'t str)> {
+///
+/// # Errors
+/// Such a line.
+pub(crate) fn refuse_depths(before: &[(usize, &str)]) -> Result<(), TextError> {
     let says = |text: &str| {
         let (name, _) = folded_name(text.trim_start_matches(['#', '%', ';', '/', ' ', '"']));
         let sentence = folded(text);
@@ -98,7 +112,13 @@ pub(crate) fn line_of_depths<'t>(before: &[(usize, &'t str)]) -> Option<(usize, 
             || is_of_z && points_down.iter().any(|words| sentence.contains(words))
             || sentence.contains("positive") && sentence.contains("below")
     };
-    before.iter().copied().find(|(_, text)| says(text))
+    before.iter().find(|(_, text)| says(text)).map_or(Ok(()), |(line, text)| {
+        let problem = format!(
+            "says that the numbers are depths (\"{}\"), which point down: turn their sign and delete the line, or set override = true if they are heights",
+            shortened(text)
+        );
+        Err(TextError::new(*line, problem))
+    })
 }
 
 #[cfg(test)]
@@ -120,7 +140,7 @@ mod tests {
         ] {
             assert!(refused(["X [mm]", "Y [mm]", third, fourth], 2), "{third} {fourth}");
         }
-        for other in ["Z error (um)", "Quality", "Height std", "z_sd_um", "Intensity"] {
+        for other in ["Z error (um)", "Quality", "Height std", "z_sd_um", "Intensity", "Z raw", "Z nominal"] {
             assert!(!refused(["x", "y", "z_um", other], 2), "{other}");
         }
         assert!(refused(["x", "y", "Z std", "Z mean"], 2) && !refused(["x", "y", "Z std", "Z mean"], 3));
@@ -135,12 +155,12 @@ mod tests {
             "z axis points into the material",
             "# Positive = below",
         ] {
-            assert!(line_of_depths(&[(3, line)]).is_some(), "{line}");
+            assert_eq!(refuse_depths(&[(3, line)]).unwrap_err().line, Some(3), "{line}");
         }
         for line in
             ["Depth: 64 um", "Width 10 um, depth 8 um", "Bit depth: 16", "Depth of focus 3 um", "Height [nm]"]
         {
-            assert_eq!(line_of_depths(&[(3, line)]), None, "{line}");
+            assert_eq!(refuse_depths(&[(3, line)]), Ok(()), "{line}");
         }
     }
 }

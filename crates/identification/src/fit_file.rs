@@ -167,7 +167,7 @@ pub enum FitImprint {
 pub struct ImprintTable {
     /// Profile or map, relative to the fit file.
     pub file: PathBuf,
-    /// Standard deviation of a height; absent: from the far field.
+    /// Standard deviation of a height, of a map of one of its heights; absent: from the far field.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<Length>,
     /// Distance over which heights are off alike, that of roughness or of the stylus; absent: from the far field.

@@ -6,8 +6,8 @@
 //! noise that is alike over as much.
 //!
 //! Variance and length are those of the harmonics over the distance from the middle: their mean square, and
-//! the integral of their correlation up to where it ends. An exponential of both has the power of any noise at
-//! long waves, where a pile-up lies, and more than that of a smooth one at short waves.
+//! the integral of their correlation up to where it ends. An exponential of both has the power of any noise
+//! at long waves, where a pile-up lies, and more than that of a smooth one at short waves.
 
 use crate::far_field::{FAR_RADII, FarField, MIN_FAR_POINTS, NoisePart};
 use std::f64::consts::TAU;

@@ -84,15 +84,8 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     let turned = request.columns[2].is_some_and(|name| name.starts_with(MINUS));
     let columns = request.columns.map(|name| name.map(|name| name.trim_start_matches(MINUS)));
     let named = Asked { columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
-    if !turned
-        && !request.override_file
-        && let Some((line, text)) = heights::line_of_depths(&grid.before)
-    {
-        let problem = format!(
-            "says that the numbers are depths (\"{}\"), which point down: turn their sign and delete the line, or set override = true if they are heights",
-            shortened(text)
-        );
-        return Err(TextError::new(line, problem).into());
+    if !turned && !request.override_file {
+        heights::refuse_depths(&grid.before)?;
     }
     if let Some(columns) = named_points(&grid, &named)? {
         notes.push(columns.said.clone());

@@ -122,3 +122,16 @@ impl DeclaredUnit {
         units.iter().enumerate().map(of).collect()
     }
 }
+
+/// Words of a factor of a column.
+const FACTORS: [&str; 6] = ["factor", "faktor", "facteur", "fattore", "multiplier", "scaling"];
+
+/// True of a line like `Load factor: 0.5`. Nothing tells whether the numbers below hold the factor already.
+pub(super) fn names_factor(line: &str) -> bool {
+    let Some((key, value)) = line.split_once([':', '=', '\t', ';']) else { return false };
+    let number = value.split_whitespace().next().map(|word| word.replace(',', "."));
+    let is_other_than_one = number.and_then(|word| word.parse::<f64>().ok()).is_some_and(|v| v != 1.0);
+    // one word of German: Kraftfaktor
+    let is_factor = |word: &str| FACTORS.iter().any(|factor| word.ends_with(factor));
+    is_other_than_one && folded(key).split(' ').any(is_factor)
+}

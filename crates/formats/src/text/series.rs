@@ -1,6 +1,6 @@
 //! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
 
-use super::declared_unit::{DeclaredUnit, speaks_of_units};
+use super::declared_unit::{DeclaredUnit, names_factor, speaks_of_units};
 use super::dialect::{Dialect, Separator, is_comment, is_row, is_written_as_number, uncommented};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit, unbracketed};
@@ -70,9 +70,6 @@ const SEGMENTS: [&str; 11] = [
     "reloading",
 ];
 
-/// Words of a factor of a column.
-const FACTORS: [&str; 6] = ["factor", "faktor", "facteur", "fattore", "multiplier", "scaling"];
-
 /// A header with the rows below it.
 struct Block<'t, const N: usize> {
     header: Header<'t>,
@@ -120,16 +117,6 @@ struct Reader<'q, 't, const N: usize> {
 /// True of a unit, or of what stands in its place where a column has none.
 fn is_unit_or_none(cell: &str) -> bool {
     is_unit(cell) || ["", "-", "–", "—", "1", "#"].contains(&cell)
-}
-
-/// True of a line like `Load factor: 0.5`. Nothing tells whether the numbers below hold the factor already.
-fn names_factor(line: &str) -> bool {
-    let Some((key, value)) = line.split_once([':', '=', '\t', ';']) else { return false };
-    let number = value.split_whitespace().next().map(|word| word.replace(',', "."));
-    let is_other_than_one = number.and_then(|word| word.parse::<f64>().ok()).is_some_and(|v| v != 1.0);
-    // one word of German: Kraftfaktor
-    let is_factor = |word: &str| FACTORS.iter().any(|factor| word.ends_with(factor));
-    is_other_than_one && folded(key).split(' ').any(is_factor)
 }
 
 /// Reads the columns `wanted` of `text`.
