@@ -29,8 +29,16 @@ pub fn verdict(
         );
     }
     if !residual.fits {
+        let misses = residual.curves.iter().filter(|curve| curve.chi2 > curve.chi2_limit);
+        let miss = misses.max_by(|a, b| (a.chi2 / a.chi2_limit).total_cmp(&(b.chi2 / b.chi2_limit)));
+        let of = miss.filter(|_| residual.curves.len() > 1).map_or_else(String::new, |curve| {
+            format!(
+                ", \"{}\" by itself {:.1} of {:.1} that chance allows",
+                curve.name, curve.chi2, curve.chi2_limit
+            )
+        });
         return format!(
-            "not identifiable: no metal within the bounds fits the measurements within their errors, so the model is rejected (χ² {:.1}, {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",
+            "not identifiable: no metal within the bounds fits the measurements within their errors, so the model is rejected (χ² {:.1}, {} degrees of freedom{of}); look for a wrong unit, tool, law, bound or noise",
             residual.chi2, residual.degrees_of_freedom
         );
     }

@@ -100,7 +100,10 @@ pub(super) fn identify(
     let mut notes = std::mem::take(&mut fit.notes);
     notes.extend(found.notes);
     notes.extend(assumed(&fit));
-    notes.extend(experiments.iter().filter_map(note_on_large_noise));
+    // about a fit that another measurement contradicts, forces scatter as well
+    if inference.residual.accords.iter().all(|accord| accord.holds) {
+        notes.extend(experiments.iter().filter_map(note_on_large_noise));
+    }
     notes.extend(notes_on_pyramids(&experiments, &unknowns, &best.point));
     let material = unknowns.material(&best.point).ok_or_else(nowhere)?;
     notes.extend(note_on_rigid_tools(&fit, &unknowns, &material));
