@@ -683,7 +683,7 @@ class ImprintTable(TypedDict, total=False):
     """Unit of the heights of a map, where the file does not say."""
 
     noise: str
-    """Standard deviation of a height; absent: from the far field."""
+    """Standard deviation of a height, of a map of one of its heights; absent: from the far field."""
 
     pixel_size: str | Sequence[str]
     """Distance of the points of a map along x and y, or one for both, where the file does not say."""
