@@ -54,6 +54,26 @@ const BESIDE: [&str; 32] = [
     "ref",
 ];
 
+/// Words that make it another quantity: displacements along z, places of a scanner.
+const OF_OTHERS: [&str; 16] = [
+    "u",
+    "displacement",
+    "velocity",
+    "force",
+    "stress",
+    "strain",
+    "slope",
+    "gradient",
+    "curvature",
+    "normal",
+    "scan",
+    "peak",
+    "index",
+    "pixel",
+    "number",
+    "unit",
+];
+
 fn has(name: &str, words: &[&str]) -> bool {
     name.split([' ', '.', '\\']).any(|word| words.contains(&word))
 }
@@ -74,7 +94,8 @@ pub(crate) fn refuse_several(
     let is_own_beside = has(&name(own), &BESIDE);
     let is_other = |cell: &&String| {
         let other = name(cell);
-        other != name(own) && has(&other, &HEIGHTS) && (is_own_beside || !has(&other, &BESIDE))
+        let is_height = has(&other, &HEIGHTS) && !has(&other, &OF_OTHERS);
+        other != name(own) && is_height && (is_own_beside || !has(&other, &BESIDE))
     };
     let Some(other) = cells.iter().find(is_other) else { return Ok(()) };
     let [own, other] = [own, other].map(|cell| shortened(cell));
@@ -140,7 +161,17 @@ mod tests {
         ] {
             assert!(refused(["X [mm]", "Y [mm]", third, fourth], 2), "{third} {fourth}");
         }
-        for other in ["Z error (um)", "Quality", "Height std", "z_sd_um", "Intensity", "Z raw", "Z nominal"] {
+        for other in [
+            "Z error (um)",
+            "Quality",
+            "Height std",
+            "z_sd_um",
+            "Intensity",
+            "Z raw",
+            "Z nominal",
+            "u_z_um",
+            "Scan Z",
+        ] {
             assert!(!refused(["x", "y", "z_um", other], 2), "{other}");
         }
         assert!(refused(["x", "y", "Z std", "Z mean"], 2) && !refused(["x", "y", "Z std", "Z mean"], 3));
