@@ -2,7 +2,7 @@
 
 use crate::cantilever;
 use crate::dimension::Dimension;
-use crate::text::{Asked, Decimal, Quantity, Series, SeriesTable, TextError, read_series};
+use crate::text::{Asked, Decimal, MINUS, Quantity, Series, SeriesTable, TextError, read_series};
 use std::mem::take;
 
 /// Depth and force, m and N, as they were read, one after the other in time.
@@ -93,8 +93,6 @@ pub const FORCE: Quantity = Quantity {
     example: "force_mN",
 };
 
-/// Marks before the name of a column that turn the sign of its numbers.
-const MINUS: [char; 2] = ['-', '−'];
 /// The largest negative force over the largest positive one from which compression is counted negative: an
 /// attraction of the tip is not so much larger than the load.
 const NEGATIVE_SHARE: f64 = 5.0;

@@ -234,7 +234,7 @@ fn noise(far: Option<&FarField>, stated: StatedNoise, depth: f64) -> Vec<NoisePa
     let told = far.map_or_else(Vec::new, |far| far.parts.clone());
     let sum = told.iter().map(|part| part.variance).sum::<f64>();
     let assumed = if far.is_none() { ASSUMED_NOISE_SHARE * depth } else { sum.sqrt() };
-    // what is stated of a height of a map shrinks in a ring as what is seen there does
+    // the stated noise of one height shrinks in the mean of a ring as the noise that is seen does
     let shown = far.and_then(|far| far.of_one_height).filter(|shown| *shown > 0.0);
     let shrinks = shown.map_or(1.0, |shown| (sum / shown).sqrt());
     let given = stated.noise.map(|noise| shrinks * noise);

@@ -90,11 +90,10 @@ impl Sides {
     pub fn take(&mut self, remark: &Remark, lengths: &[f64], has_length: bool) {
         let key = remark.key.as_str();
         let mut lengths = lengths.to_vec();
-        let order = order_of_axes(&remark.text);
         if let [x, y] = lengths[..]
             && x != y
         {
-            match order {
+            match order_of_axes(&remark.text) {
                 Some(true) => lengths.reverse(),
                 Some(false) => {}
                 None => self.pair = self.pair.take().or_else(|| Some(quoted(remark))),

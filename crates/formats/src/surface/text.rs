@@ -12,8 +12,8 @@ use super::titled;
 use crate::dimension::Dimension;
 use crate::heights;
 use crate::text::{
-    Asked, Columns, Grid, Header, Quantity, Separator, Tables, TextError, decode, folded_name, header_cells,
-    read_grid, shortened, uncommented,
+    Asked, Columns, Grid, Header, MINUS, Quantity, Separator, Tables, TextError, decode, folded_name,
+    header_cells, read_grid, shortened, uncommented,
 };
 use std::path::Path;
 
@@ -141,9 +141,6 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     let height_unit = said.height_unit.or(axes.height_unit);
     Ok(Measured { columns, rows, heights: grid.values, spacing, spacing_error, height_unit, notes })
 }
-
-/// Marks before the name of a column of depths.
-const MINUS: [char; 2] = ['-', '−'];
 
 /// The map with the sign of its heights turned where it is.
 fn turned_where(is_turned: bool, mut map: Measured) -> Measured {

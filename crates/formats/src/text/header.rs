@@ -7,6 +7,9 @@ use super::{TextError, shortened};
 use crate::dimension::Dimension;
 use crate::units::conversion;
 
+/// Marks before the name of a column that turn the sign of its numbers.
+pub(crate) const MINUS: [char; 2] = ['-', '−'];
+
 /// Facts on a table beside its text.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a, const N: usize> {

@@ -21,7 +21,7 @@ pub use series::{Series, SeriesTable, header_line, read_series};
 
 pub(crate) use dialect::uncommented;
 pub(crate) use grid::names_above;
-pub(crate) use header::{Columns, Header, header_cells};
+pub(crate) use header::{Columns, Header, MINUS, header_cells};
 pub(crate) use heading::{folded, folded_name};
 
 /// The reason why a table cannot be read: the line (from 1) where it has one, and a sentence with a way out.
