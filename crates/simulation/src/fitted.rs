@@ -13,13 +13,16 @@ pub(crate) const FITTED: Fitted = Fitted {
         area_share: 1.0,
         area_share_of_other_element: 0.5,
         widened: 0.6,
-        hidden_force: [0.2, 0.5],
+        hidden_force: [0.12, 0.3],
         hidden_area: 210.0,
+        end_of_contact: [0.9, 0.5],
         lost_by_steps: 1.8,
         toward_touch: 0.5,
-        kept_of_force: 1.25,
-        kept_of_area: 1.0,
+        kept_of_force: 0.6,
+        kept_of_area: 0.46,
+        kept_of_other_element: 1.0,
         rest_in_bound: 2.0,
+        rest_of_difference: 0.75,
         asymptotic: 0.055,
         line: 0.15,
         onset: 1.25,
@@ -63,6 +66,10 @@ pub(crate) struct FittedErrors {
     pub hidden_force: [f64; 2],
     /// ln of the area at the peak, per square of penetration over depth, that they hide.
     pub hidden_area: f64,
+    /// ln of radius or half width, per penetration over depth, by which scenes scatter about what mesh and
+    /// penetration do in the mean; less where run and companion share a mesh. On the scenes this scatter does
+    /// not hang on how much run and companion differ.
+    pub end_of_contact: [f64; 2],
     /// ln of the force of a cone that steps lose at the peak where all work is dissipated, over the square of
     /// the last one's length in ln h: steps of 0.17 to 0.36 lose 3 to 8 %, and their companion no more.
     pub lost_by_steps: f64,
@@ -72,10 +79,17 @@ pub(crate) struct FittedErrors {
     /// Factor of the smooth part of the force in its bound. What is left of it where the order is not the
     /// assumed one is less, for orders between 1 and 2.
     pub kept_of_force: f64,
-    /// The same of the area, of which 0.45 at most is left for orders between 0.8 and 1.5.
+    /// The same of the area: what is left of it for an order of 1.5, (2^1.5 - 2)/(2^1.5 - 1); for one of 0.8
+    /// it is less.
     pub kept_of_area: f64,
+    /// The same of the area where the companion has the other element, of which no order is known.
+    pub kept_of_other_element: f64,
     /// The rest of the difference that the bound allows for, over the largest that is seen.
     pub rest_in_bound: f64,
+    /// Weight of the difference in the geometric mean of its rest and the ripple of the run itself, where
+    /// that is less, of the force. A kink of the metal, which the run smooths away, remains in the
+    /// difference. The difference of the area ripples by the edges of the companion: there its weight is 0.
+    pub rest_of_difference: f64,
     /// Largest smooth part of which a share is subtracted: a companion that differs by more is in no
     /// asymptotic range, and the whole difference stays in the bound.
     pub asymptotic: f64,

@@ -20,8 +20,10 @@ pub(super) struct Quantity {
     hidden: Hidden,
     /// Factor of the smooth part in the bound of what is left of it.
     kept: f64,
-    /// Factor of what no order is known of.
+    /// Factor of a difference of which no order is known.
     safety: f64,
+    /// Weight of the difference in the geometric mean of its rest and the ripple of the run itself.
+    rest_of_difference: f64,
 }
 
 /// Relative errors at the peak that run and companion may hide.
@@ -81,19 +83,31 @@ impl Setting {
             hidden,
             kept: fitted.kept_of_force,
             safety: 1.0,
+            rest_of_difference: fitted.rest_of_difference,
         }
     }
 
     pub(super) fn area(self) -> Quantity {
         let fitted = FITTED.errors;
-        let (share, widened) = if self.same_mesh {
-            (fitted.area_share_of_other_element, 0.0)
+        let longer = self.penetration * lengths(self.symmetry);
+        let (share, widened, kept) = if self.same_mesh {
+            (fitted.area_share_of_other_element, 0.0, fitted.kept_of_other_element)
         } else {
-            (fitted.area_share, fitted.widened * self.penetration * lengths(self.symmetry))
+            (fitted.area_share, fitted.widened * longer, fitted.kept_of_area)
         };
-        let hidden = Hidden { balanced: fitted.hidden_area * self.penetration.powi(2), even: 0.0 };
-        let safety = GRID_CONVERGENCE_SAFETY;
-        Quantity { smooth: even_or_line, share, widened, hidden, kept: fitted.kept_of_area, safety }
+        let hidden = Hidden {
+            balanced: fitted.hidden_area * self.penetration.powi(2),
+            even: fitted.end_of_contact[usize::from(self.same_mesh)] * longer,
+        };
+        Quantity {
+            smooth: even_or_line,
+            share,
+            widened,
+            hidden,
+            kept,
+            safety: GRID_CONVERGENCE_SAFETY,
+            rest_of_difference: 0.0,
+        }
     }
 }
 
@@ -201,7 +215,8 @@ impl Difference {
         };
         let [smooth, rest, own] = within.fold([0.0; 3], largest);
         // the companion ripples more; the run itself has kinks that are no ripple
-        let rest = self.of.safety * FITTED.errors.rest_in_bound * rest.min(own);
+        let weight = self.of.rest_of_difference;
+        let rest = FITTED.errors.rest_in_bound * rest.min(own).powf(1.0 - weight) * rest.powf(weight);
         smooth.hypot(rest).hypot(self.of.hidden.in_squares(from.max(LEAST_COUNTED_DEPTH.ln())))
     }
 

@@ -10,11 +10,16 @@
 //!   the area.
 //! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after
 //!   Richardson's extrapolation of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and subtracted too.
-//! * The bound of the remainder is, added in squares, the largest smooth part from a fifth of the depth on,
-//!   twice the largest rest, of the area with Roache's factor of safety, and what errors of mesh and
+//! * The bound of the remainder is, added in squares, what another order than the assumed one leaves of the
+//!   largest smooth part from a fifth of the depth on, twice the largest rest, and what errors of mesh and
 //!   penetration, which have opposite signs, may hide from each other by chance (of the force also what
-//!   coarse steps lose): less of a body that dissipates little of its work. The rest is that of D, or that of
-//!   the run from a smooth curve of its own where it is less: the companion ripples more.
+//!   coarse steps lose): less of a body that dissipates little of its work. The rest of the area is that of
+//!   D, or that of the run from a smooth curve of its own where it is less: the companion ripples more. The
+//!   rest of the force, which ripples little, is a geometric mean of the two: D alone shows a kink of the
+//!   metal.
+//! * What extrapolation leaves of the area does not hang on D, scene by scene: the end of the contact is
+//!   known to nine tenths of the penetration, and its bound says so even where run and companion agree.
+//! * Of a difference that has no order, all counts; of the area with Roache's factor of safety.
 //! * Where another asperity begins to carry, run and companion differ by what it carries: that stretch of
 //!   depths has no smooth part, parts those before and after it, and counts whole in the bound.
 //! * A companion that differs too much is in no asymptotic range: no share of D is subtracted.
