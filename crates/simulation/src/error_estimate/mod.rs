@@ -39,12 +39,12 @@
 //! largest bound stands for it.
 //!
 //! The mean pressure is force over area: its bound is theirs in squares. Other values read at the peak or
-//! after it are not extrapolated. Their bound is the difference itself, and what the stated errors of force
-//! and stiffness near the peak would do to it, since two runs may agree by chance; to that of the stiffness,
-//! half the bound of the area there is added in squares. The elastic fraction has the two in squares, and
-//! where the energies of the body leave more of the work over the depths unaccounted, that in the place of
-//! the second. What transfers to better meshes took and gave is added to both whole: the companion has
-//! transfers of its own, at other depths.
+//! after it are not extrapolated. Their bound is the difference itself (of the residual depth what the
+//! lowest order leaves of it), and in squares what the stated errors of force and stiffness near the peak
+//! would do to it, since two runs may agree by chance; to that of the stiffness, half the bound of the area
+//! there is added in squares. Where the energies of the body leave more of the work over the depths
+//! unaccounted, that stands in the place of the second for the elastic fraction. What transfers to better
+//! meshes took and gave is added to both whole: the companion has transfers of its own, at other depths.
 
 mod bound;
 mod rescale;
@@ -73,6 +73,10 @@ const HALF_SPAN_OF_ROW: f64 = 0.15;
 
 /// Error of a residual depth over the depth, and of an elastic fraction, below which none is stated.
 const LEAST_STATED_ERROR: f64 = 1e-5;
+
+/// Error of a value that is not extrapolated over its difference to the companion, 1/(2ᵖ - 1), at the lowest
+/// order p = 0.8 that was seen.
+const LEFT_BY_LOWEST_ORDER: f64 = 1.35;
 
 /// Share of the depth that the companion must reach.
 const LEAST_COMPANION_DEPTH: f64 = 0.9;
@@ -171,9 +175,12 @@ impl Comparison {
             contact_area: area,
             mean_pressure: force.hypot(area),
             depth: None,
-            residual_depth: difference(summary.residual_depth, companion.residual_depth)
-                .zip(residual)
-                .map(|(d, r)| (d / summary.peak_depth + share(r) + recovered).max(LEAST_STATED_ERROR)),
+            residual_depth: difference(summary.residual_depth, companion.residual_depth).zip(residual).map(
+                |(d, r)| {
+                    let left = (LEFT_BY_LOWEST_ORDER * d / summary.peak_depth).hypot(share(r));
+                    (left + recovered).max(LEAST_STATED_ERROR)
+                },
+            ),
             elastic_fraction: difference(summary.elastic_fraction, companion.elastic_fraction)
                 .zip(elastic)
                 .map(|(d, e)| {
