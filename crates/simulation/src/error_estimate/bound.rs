@@ -352,8 +352,8 @@ mod tests {
         }
     }
 
-    /// A kink of a tabulated metal, which a smooth curve of the run has swallowed: a fifth of a percent of the
-    /// force, of which the run itself shows a twentieth.
+    /// A kink of a tabulated metal, which a smooth curve of the run has swallowed: a fifth of a percent of
+    /// the force, of which the run itself shows a twentieth.
     #[test]
     fn a_kink_in_the_difference_counts_though_the_run_is_smooth() {
         let kink = |x: f64| if x.abs() < 0.05 { 0.002 } else { 0.0 };
