@@ -199,7 +199,10 @@ fn a_hold_leaves_the_modulus_alone() {
     let mut held = all[..=peak].to_vec();
     held.extend((1..=15).map(|i| [deepest * (1.0 + 0.002 * f64::from(i)), most]));
     held.extend(all[peak + 1..].iter().map(|[h, f]| [1.03 * deepest - (deepest - h) / 1.03, *f]));
-    let sought = FIT.replace("\"120 GPa\"", "[\"60 GPa\", \"240 GPa\"]");
+    // one cone cannot tell how the metal hardens: with that open, any modulus of its valley may come out
+    let sought = FIT
+        .replace("\"120 GPa\"", "[\"60 GPa\", \"240 GPa\"]")
+        .replace("hardening_exponent = [0.0, 0.5]", "hardening_exponent = 0.2");
     std::fs::write(place.path("fit.toml"), sought).unwrap();
     let mut moduli = Vec::new();
     for (out, readings) in [("plain", &all), ("held", &held)] {
@@ -211,7 +214,7 @@ fn a_hold_leaves_the_modulus_alone() {
         assert!(covers(&found, "youngs_modulus", METAL[0]), "{out}: {}", found["parameters"]);
         moduli.push(found["parameters"]["youngs_modulus"]["value"].as_f64().unwrap());
     }
-    assert!((moduli[1] / moduli[0] - 1.0).abs() < 0.05, "{moduli:?}");
+    assert!((moduli[1] / moduli[0] - 1.0).abs() < 0.01, "{moduli:?}");
 }
 
 #[test]

@@ -161,11 +161,19 @@ fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
 }
 
 /// The first of the `readings` at whose place the force has come to `force`: where a hold follows by the mean
-/// with its neighbours, for noise lifts one on the way up as far.
+/// with its neighbours, for noise lifts one on the way up as far. Those just before it that are there one by
+/// one belong to it: the mean comes late where forces do not scatter.
 fn first_at(readings: &[[f64; 2]], force: f64) -> usize {
     let there = readings.iter().filter(|p| p[1] >= force).count();
     let side = (there / 4).min(MOST_NEIGHBOURS);
-    (0..readings.len()).find(|i| mean_force(readings, *i, side) >= force).unwrap_or(readings.len() - 1)
+    let late =
+        (0..readings.len()).find(|i| mean_force(readings, *i, side) >= force).unwrap_or(readings.len() - 1);
+    // half a percent on both sides of the peak's force
+    let peak = force / PEAK_FORCE_SHARE;
+    let at_the_peak = |p: &&[f64; 2]| (p[1] - peak).abs() <= peak - force;
+    let steady = readings[late..].iter().take(2 * side).filter(at_the_peak).count() == 2 * side;
+    let before = readings[..late].iter().rev().take(side).take_while(at_the_peak).count();
+    if steady { late - before } else { late }
 }
 
 /// True where the force stayed while the depth grew over `readings` up to the `peak`: by more than the
