@@ -35,7 +35,7 @@ fn the_commands_of_the_front_page_run() {
         "crush",
         "single.toml",
         "--accuracy",
-        "standard",
+        "reference",
         "--no-refine",
         "--out",
         "finer",
@@ -43,19 +43,19 @@ fn the_commands_of_the_front_page_run() {
     ]);
     assert_eq!(finer.status, 0, "{}", finer.err);
     let finer: serde_json::Value = serde_json::from_str(&finer.out).unwrap();
-    for (error, key, over, left) in [
-        ("force", "peak_force_N", "peak_force_N", 0.7),
-        ("contact_area", "contact_area_um2", "contact_area_um2", 0.7),
-        ("residual_depth", "residual_depth_um", "peak_depth_um", 0.8),
+    for (error, key, over) in [
+        ("force", "peak_force_N", "peak_force_N"),
+        ("contact_area", "contact_area_um2", "contact_area_um2"),
+        ("residual_depth", "residual_depth_um", "peak_depth_um"),
     ] {
         let of = |summary: &serde_json::Value, key: &str| summary[key].as_f64().unwrap();
         let true_error = (of(&summary, key) - of(&finer, key)).abs() / of(&finer, over);
         let [stated, finer_stated] = [&summary, &finer].map(|s| s["errors"][error].as_f64().unwrap());
         assert!(true_error < stated + finer_stated, "{error}: {true_error} {stated} {finer_stated}");
-        // a constant would pass that: the bound falls with the accuracy, that of the residual depth, which is
-        // not extrapolated, the least
+        // a constant would pass that: from 10 elements to 36 an error of the order 0.8 falls to a third, and
+        // half leaves room for its chance
         assert!(
-            finer_stated > 0.0 && finer_stated < left * stated && stated < 0.05,
+            finer_stated > 0.0 && finer_stated < 0.5 * stated && stated < 0.05,
             "{error}: {finer_stated} {stated}"
         );
     }
