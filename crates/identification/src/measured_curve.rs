@@ -156,22 +156,21 @@ fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
     // the way back, which is steep, is no part of it
     let turned: Vec<f64> = readings[..=last].iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
     let force = turned.iter().sum::<f64>() / turned.len().max(1) as f64;
-    let first = first_at(&readings[..=last], PEAK_FORCE_SHARE * force);
+    let first = first_at(&readings[..=last], force);
     Turn { first, last, peak: [readings[last][0], force] }
 }
 
-/// The first of the `readings` at whose place the force has come to `force`: where a hold follows by the mean
-/// with its neighbours, for noise lifts one on the way up as far. Those just before it that are there one by
-/// one belong to it: the mean comes late where forces do not scatter.
-fn first_at(readings: &[[f64; 2]], force: f64) -> usize {
-    let there = readings.iter().filter(|p| p[1] >= force).count();
+/// The first of the `readings` at whose place the force has come to that of the `peak`: where a hold follows
+/// by the mean with its neighbours, for noise lifts one on the way up as far. Those just before it that are
+/// there one by one belong to it: the mean comes late where forces do not scatter.
+fn first_at(readings: &[[f64; 2]], peak: f64) -> usize {
+    let least = PEAK_FORCE_SHARE * peak;
+    let there = readings.iter().filter(|p| p[1] >= least).count();
     let side = (there / 4).min(MOST_NEIGHBOURS);
     let late =
-        (0..readings.len()).find(|i| mean_force(readings, *i, side) >= force).unwrap_or(readings.len() - 1);
-    // half a percent on both sides of the peak's force
-    let peak = force / PEAK_FORCE_SHARE;
-    let at_the_peak = |p: &&[f64; 2]| (p[1] - peak).abs() <= peak - force;
-    let steady = readings[late..].iter().take(2 * side).filter(at_the_peak).count() == 2 * side;
+        (0..readings.len()).find(|i| mean_force(readings, *i, side) >= least).unwrap_or(readings.len() - 1);
+    let at_the_peak = |p: &&[f64; 2]| (p[1] - peak).abs() <= peak - least;
+    let steady = readings[late..].iter().take_while(at_the_peak).count() >= 2 * side;
     let before = readings[..late].iter().rev().take(side).take_while(at_the_peak).count();
     if steady { late - before } else { late }
 }
