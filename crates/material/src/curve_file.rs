@@ -9,9 +9,10 @@
 //! ```
 //! Columns may change places, stand among others and be written as the reader of tables knows; the heads may
 //! be those of other languages. A column of `total_strain` in place of the plastic one is made that with
-//! Young's modulus.
+//! Young's modulus. The metal of an input file of Abaqus or CalculiX is read too.
 
 use crate::hardening_table::HardeningTable;
+use crate::material_card::{MaterialCard, of_another_program};
 use crate::total_strain::{NoYield, is_elastic, plastic_points};
 use asperity_formats::dimension::Dimension;
 use asperity_formats::text::{Asked, Quantity, Series, SeriesTable, TextError, header_line, read_series};
@@ -247,6 +248,14 @@ impl CurveFile {
     /// plastic or total, a line that is not numbers, total strains that do not begin on the elastic line, or
     /// points that are no curve of hardening (see [`HardeningTable::new`]); each with its line.
     pub fn parse(text: &str, youngs_modulus: f64) -> Result<CurveFile, TextError> {
+        if let Some(card) = MaterialCard::read(text, youngs_modulus) {
+            let MaterialCard { points, lines, unit, understood } = card?;
+            return Columns { file: CurveFile { points, lines, understood }, name: STRAIN.name.into(), unit }
+                .checked();
+        }
+        if let Some(error) = of_another_program(text) {
+            return Err(error);
+        }
         let names = |strain: Quantity| header_line(text, &[strain, STRESS]);
         if names(STRAIN).is_none() && names(TOTAL).is_some() {
             return Columns::new(text, TOTAL)?.made_plastic(youngs_modulus)?.checked();

@@ -7,6 +7,7 @@ mod flow_curve;
 mod hardening;
 mod hardening_curve;
 mod hardening_table;
+mod material_card;
 mod plastic_table;
 pub mod range;
 mod total_strain;

@@ -44,7 +44,8 @@ pub struct Material {
     pub saturation_strain: Option<f64>,
     /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is
     /// plastic_strain,yield_stress_MPa, or total_strain in place of plastic_strain, of which stress over Young's
-    /// modulus is subtracted; linear between its points, constant beyond the last. A resolved scene has
+    /// modulus is subtracted; or an input file of Abaqus or CalculiX with *PLASTIC, whose unit of stress its
+    /// *ELASTIC tells. Linear between its points, constant beyond the last. A resolved scene has
     /// `hardening_table` in its place.
     #[schemars(example = "curve.csv")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
