@@ -181,9 +181,10 @@ impl Sources {
         let overrides = overrides
             .iter()
             .map(|text| {
+                let text = with_digits_about_the_point(text);
                 let span = start + 1..start + 1 + text.len();
                 start = span.end;
-                (span, text.clone())
+                (span, text)
             })
             .collect();
         Sources { name, text, overrides, under: None }
@@ -318,6 +319,17 @@ fn set<'a>(root: &mut Spanned<DeValue<'a>>, text: &'a str, span: &Range<usize>) 
     // what is no TOML value is a bare string, so that shells need no second pair of quotes
     let value = DeValue::parse(value).map_or_else(|_| DeValue::String(value.into()), Spanned::into_inner);
     put(root, &keys, moved(value, span), span)
+}
+
+/// An override whose number has a bare point, `.005` or `5.`, as TOML writes it: people and programs leave
+/// the 0 out.
+fn with_digits_about_the_point(text: &str) -> String {
+    let bare = text.split_once('=').filter(|(_, value)| {
+        let value = value.trim();
+        value.parse::<f64>().is_ok() && value.contains('.') && DeValue::parse(value).is_err()
+    });
+    bare.and_then(|(path, value)| Some(format!("{path}={:?}", value.trim().parse::<f64>().ok()?)))
+        .unwrap_or_else(|| text.to_string())
 }
 
 /// Puts `new` at `keys`, making tables on the way.

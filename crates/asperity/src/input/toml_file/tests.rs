@@ -49,13 +49,14 @@ fn overrides_change_add_and_append() {
         "leaf[2].size=8e-1",
         "trunk.name=\"5\"",
         "list=[1, 2.5]",
+        "trunk.size= -.5 ",
     ];
     let tree = read(FILE.as_bytes(), &set).unwrap().value;
     let leaf = |size, name: Option<&str>| Leaf { size, name: name.map(Into::into) };
     assert_eq!(tree.count, 4);
     assert_eq!(tree.leaf, [leaf(1.5, Some("oak tree")), leaf(7.0, None), leaf(0.8, None)]);
-    assert_eq!((tree.trunk, tree.list), (Some(leaf(9.0, Some("5"))), Some(vec![1.0, 2.5])));
-    let built = read(b"count = 1\n", &["leaf[0].size=1", "trunk.size=2"]).unwrap().value;
+    assert_eq!((tree.trunk, tree.list), (Some(leaf(-0.5, Some("5"))), Some(vec![1.0, 2.5])));
+    let built = read(b"count = 1\n", &["leaf[0].size=+1.", "trunk.size=2"]).unwrap().value;
     assert_eq!((built.leaf, built.trunk), (vec![leaf(1.0, None)], Some(leaf(2.0, None))));
 }
 

@@ -89,6 +89,11 @@ fn depths_are_refused_or_turned() {
         let fault = found(&format!("{words}\n{MAP}")).expect_err(words);
         assert!(fault.contains("point down"), "{words}: {fault}");
     }
+    for name in ["Distance", "Abstand", "Sensor range"] {
+        let fault =
+            found(&points(&format!("X [um]\tY [um]\t{name} [um]"), |i| i.to_string())).expect_err(name);
+        assert!(fault.contains("minus before the name"), "{name}: {fault}");
+    }
     let folder = Folder::new();
     let path = folder.file("a.txt", points("X [um]\tY [um]\tDepth [um]", |i| i.to_string()).as_bytes());
     let columns = [Some("X"), Some("Y"), Some("-Depth")];
