@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// How often signals are looked at.
+/// Time between two looks at signals.
 const PATIENCE: Duration = Duration::from_millis(20);
 
 /// Told by the work: share of it that is done, 0 to 1, and what it is at; `false` ends it.

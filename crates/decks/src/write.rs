@@ -88,7 +88,7 @@ impl Deck {
         }
     }
 
-    /// How far the deck departs from the scene.
+    /// The departures of the deck from the scene.
     fn remarks(&self, out: &mut impl Write) -> io::Result<()> {
         if let Some(table) = self.table.as_ref().filter(|table| table.error > 0.0) {
             writeln!(

@@ -117,7 +117,7 @@ pub fn read(
     }
 }
 
-/// What can be done about an imprint in place of setting keys of a surface.
+/// The way out for an imprint in place of setting keys of a surface.
 const WAYS: [(&str, &str); 4] = [
     ("override = ", ""),
     ("missing_value = ", ": write nan in its place"),
@@ -137,7 +137,7 @@ fn without_keys(message: &str) -> String {
     message
 }
 
-/// How the message on a map begins of which too little is known.
+/// The beginning of the message on a map of which too little is known.
 const UNSAID: &str = "is a map that does not say ";
 
 /// The message on a map whose file does not say its pixel size, the unit of its heights, or both.

@@ -1,6 +1,7 @@
 //! Profiles of imprints as text tables: places and heights, or points x, y, z along one line.
 //!
-//! What would be read wrongly without a word is refused: numbers that stand for no reading, a second profile.
+//! A file that would be read wrongly without a word is refused: numbers that stand for no reading, a second
+//! profile.
 
 use crate::imprint_level::{LEVEL_RADII, level};
 use asperity_formats::text::{Series, SeriesTable};

@@ -112,8 +112,8 @@ impl MaterialCard {
     /// any other file.
     ///
     /// # Errors
-    /// Several metals, temperatures or rates, hardening of another kind than by a table, no Young's modulus or
-    /// one that is that of the scene in no unit, cells that are no numbers; each with its line.
+    /// Several metals, temperatures or rates, hardening by no table, no Young's modulus or one that is that
+    /// of the scene in no unit, cells that are no numbers; each with its line.
     pub fn read(text: &str, youngs_modulus: f64) -> Option<Result<MaterialCard, TextError>> {
         let blocks = blocks(text);
         let places: Vec<usize> = (0..blocks.len()).filter(|i| blocks[*i].is("PLASTIC")).collect();

@@ -185,7 +185,7 @@ class Crush:
 
     @property
     def frames(self) -> int:
-        """How many increments have fields: ``output = {"every": 5}`` in the scene asks for them."""
+        """Number of increments that have fields: ``output = {"every": 5}`` in the scene asks for them."""
         return self._inner.frames()
 
     def fields(self, i: int) -> Fields:
@@ -453,9 +453,9 @@ class Identification:
         self.fit = fit
         """The numbers of ``fit.json``."""
         self.parameters: dict[str, dict[str, Any]] = fit["parameters"]
-        """What was sought: ``parameters["yield_stress"]`` has value, low, high, unit, identifiable."""
+        """The unknowns that were sought: ``parameters["yield_stress"]`` has value, low, high, unit, identifiable."""
         self.verdict: str = fit["verdict"]
-        """What the measurements tell and what they do not."""
+        """Sentences on what the measurements tell and what they do not."""
         self.samples = Table(samples)
         """Samples of the posterior, a row a sample."""
         self.curve_svg, self.stress_strain_svg, self.objective_svg = pictures

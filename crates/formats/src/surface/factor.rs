@@ -35,7 +35,7 @@ const WORTHS: [&str; 13] = [
     "digit",
     "zstep",
 ];
-/// What is none of the heights.
+/// Words of factors that are none of the heights.
 const OTHERS: [&str; 8] = ["x", "y", "xy", "lateral", "pixel", "zoom", "magnification", "camera"];
 /// Names of the heights.
 const HEIGHTS: [&str; 12] = [

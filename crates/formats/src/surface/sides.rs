@@ -38,7 +38,7 @@ pub(super) fn quoted(remark: &Remark) -> String {
     format!("line {} \"{}\"", remark.line, shortened(&remark.text))
 }
 
-/// Whether the words of a line put y before x, as in `dy x dx`, `[y, x]`; `None` where they name no axes.
+/// True where the words of a line put y before x, as in `dy x dx`, `[y, x]`; `None` where they name no axes.
 fn order_of_axes(text: &str) -> Option<bool> {
     let text = text.to_lowercase();
     let words: Vec<&str> =

@@ -86,7 +86,7 @@ fn cells_of(row: Node<'_, '_>) -> Vec<(u32, u32, String, bool)> {
     cells
 }
 
-/// How often a row or a cell stands there.
+/// Number of times that a row or a cell stands there.
 fn repeats(node: Node<'_, '_>, name: &str) -> u32 {
     node.attribute((TABLE, name)).and_then(|count| count.parse().ok()).unwrap_or(1)
 }
