@@ -8,6 +8,9 @@ use super::{TextError, shortened};
 use std::collections::HashMap;
 
 mod no_readings;
+mod segments;
+
+use segments::{is_segment, named_segment};
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,21 +58,6 @@ const SUMMARIES: [&str; 14] = [
     "moyenne",
 ];
 
-/// Names of segments, which may stand before their first reading alone.
-const SEGMENTS: [&str; 11] = [
-    "load",
-    "loading",
-    "hold",
-    "holding",
-    "unload",
-    "unloading",
-    "segment",
-    "approach",
-    "surface",
-    "reload",
-    "reloading",
-];
-
 /// A header with the rows below it.
 struct Block<'t, const N: usize> {
     header: Header<'t>,
@@ -101,6 +89,8 @@ struct Reader<'q, 't, const N: usize> {
     /// Places of series by the first one of their block and their label.
     places: HashMap<(usize, String), usize>,
     skipped: usize,
+    /// True below a line that names a later segment of the test, until its first reading.
+    goes_on: bool,
     /// The last line of words before a header.
     words: Option<(usize, &'t str)>,
     /// Units that lines above the rows declare.
@@ -139,6 +129,7 @@ pub fn read_series<const N: usize>(
         series,
         places: HashMap::new(),
         skipped: 0,
+        goes_on: false,
         words: None,
         declared: Vec::new(),
         said,
@@ -198,7 +189,10 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         }
         if !is_row(bare) {
             if let Some(header) = Header::new(&self.dialect, line, text, self.wanted, self.named) {
-                self.begin(header);
+                // each segment may have the names above it
+                if !self.goes_on || !self.block.as_ref().is_some_and(|b| b.header.text.trim() == bare) {
+                    self.begin(header);
+                }
                 return Ok(());
             }
             let waiting = self.block.as_mut().filter(|block| block.columns.is_none());
@@ -262,6 +256,10 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
     fn is_behind(&mut self, line: usize, text: &str) -> Result<bool, TextError> {
         let Some(block) = self.block.as_mut() else { return Ok(false) };
         let Some(columns) = &block.columns else { return Ok(false) };
+        if let (None, Some(goes_on)) = (&block.end, named_segment(text)) {
+            self.goes_on = goes_on;
+            return Ok(true);
+        }
         let cells = header_cells(&self.dialect, text, Some(columns.width));
         let is_word = |cell: &str| !cell.is_empty() && self.dialect.measured(cell).is_none();
         let is_words = !is_row(text.trim()) && self.dialect.cells(text).next().is_some_and(is_word);
@@ -270,10 +268,8 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let is_number = |pick: &Pick| {
             cells.get(pick.column).is_some_and(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()))
         };
-        let begins_segment = || {
-            cells.first().is_some_and(|cell| SEGMENTS.contains(&folded(cell).as_str()))
-                && columns.picks[0].iter().all(is_number)
-        };
+        let begins_segment =
+            || cells.first().is_some_and(|cell| is_segment(cell)) && columns.picks[0].iter().all(is_number);
         if is_words && (is_summary || block.has_plain_rows && !begins_segment()) {
             let names = cells.iter().filter(|cell| is_word(cell)).count();
             let least = if self.dialect.separator == Separator::Blanks { columns.width } else { 2 };
@@ -332,6 +328,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let Some(Block { header, columns, first, has_plain_rows, end }) = self.block.take() else {
             return Ok(());
         };
+        self.goes_on = false;
         let row: Vec<&str> = self.dialect.cells(text).collect();
         let columns = match columns {
             None => self.columns_above(&header, (line, text), &row)?,

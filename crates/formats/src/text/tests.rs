@@ -359,7 +359,7 @@ fn a_curve_ends_at_words() {
     let words =
         "Segment,Depth (nm),Load (mN)\nLoad Segment Type,100,2\nHold Segment Type,200,8\nMean,150,5\n";
     is_the_curve(words, COLUMNS);
-    let parted = format!("{table}Unloading\n150,3\n");
+    let parted = format!("{table}Somewhere else\n150,3\n");
     let fault = indentation::read(&parted, COLUMNS, None).unwrap_err();
     assert!(
         fault.line == Some(5) && fault.message.contains("line 4") && fault.message.contains('#'),

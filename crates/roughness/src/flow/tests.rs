@@ -178,3 +178,67 @@ fn missing_points_widen_the_error_of_a_leak() {
     assert!(off > 0.2 && off <= holed.error.ln_1p(), "{whole:?} {holed:?}");
     assert!(whole.error < 0.1, "{whole:?}");
 }
+
+/// The values of a map of `nodes`, each taken from the place `at` its own.
+fn turned(nodes: [usize; 2], values: &[f32], at: impl Fn(usize, usize) -> [usize; 2]) -> Vec<f32> {
+    let [nx, ny] = nodes;
+    let from = |i: usize| {
+        let [x, y] = at(i % nx, i / nx);
+        values[y * nx + x]
+    };
+    (0..nx * ny).map(from).collect()
+}
+
+/// A surface leaks the same seen from the other end, from the other side, with its axes exchanged and, where
+/// it is periodic, from any place on; so does its constriction, and so do their errors.
+#[test]
+fn a_leak_knows_no_side_and_no_beginning() {
+    // even, so that pixels twice as wide begin at either end
+    let [nx, ny] = [48, 40];
+    let height = |i: usize| {
+        let (x, y) = ((i % nx) as f32 / nx as f32, (i / nx) as f32 / ny as f32);
+        let wave = |kx: f32, ky: f32, phase: f32| (6.283_185_3 * (kx * x + ky * y) + phase).sin();
+        1e-6 * (0.7 + wave(1.0, 2.0, 0.3) + 0.7 * wave(3.0, -1.0, 1.0) + 0.5 * wave(-2.0, 5.0, 2.0)).max(0.0)
+    };
+    let mut whole: Vec<f32> = (0..nx * ny).map(height).collect();
+    // a point that was not measured
+    whole[7 * nx + 11] = f32::NAN;
+    let of = |periodic: bool, values: &[f32], axis: Axis| {
+        let map = gap([nx, ny], periodic, values);
+        let (flow, narrow) = (leak(&map, axis).unwrap(), constriction(&map, axis).unwrap());
+        [flow.conductance, flow.hydraulic_gap, 1.0 + flow.error, narrow.gap, narrow.width]
+    };
+    let same = |one: [f64; 5], other: [f64; 5], what: &str| {
+        for (a, b) in one.into_iter().zip(other) {
+            // grids of an error's own halves begin at one end
+            assert!((a / b - 1.0).abs() < 1e-3, "{what}: {one:?} {other:?}");
+        }
+        assert!((one[0] / other[0] - 1.0).abs() < 1e-6, "{what}: {one:?} {other:?}");
+    };
+    for (periodic, axis) in [false, true].into_iter().flat_map(|p| [(p, Axis::X), (p, Axis::Y)]) {
+        let own = of(periodic, &whole, axis);
+        let ends = turned([nx, ny], &whole, |x, y| [nx - 1 - x, y]);
+        same(own, of(periodic, &ends, axis), "other end");
+        let sides = turned([nx, ny], &whole, |x, y| [x, ny - 1 - y]);
+        same(own, of(periodic, &sides, axis), "other side");
+        let (swapped, across) = (
+            (0..nx * ny).map(|i| whole[i % ny * nx + i / ny]).collect::<Vec<_>>(),
+            match axis {
+                Axis::X => Axis::Y,
+                Axis::Y => Axis::X,
+            },
+        );
+        let map = Gap { nodes: [ny, nx], pixel: [0.5e-6, 2e-6], periodic, values: &swapped };
+        let (flow, narrow) = (leak(&map, across).unwrap(), constriction(&map, across).unwrap());
+        let other = [flow.conductance, flow.hydraulic_gap, 1.0 + flow.error, narrow.gap, narrow.width];
+        same(own, other, "axes exchanged");
+        if periodic {
+            // across the flow alone: along it the pressure falls over the map
+            let moved = turned([nx, ny], &whole, |x, y| match axis {
+                Axis::X => [x, (y + 12) % ny],
+                Axis::Y => [(x + 12) % nx, y],
+            });
+            same(own, of(periodic, &moved, axis), "another beginning");
+        }
+    }
+}

@@ -123,4 +123,47 @@ mod tests {
         assert!((correction(&holed) / correction(&whole) - 1.0).abs() < 0.1, "{holed:?} {whole:?}");
         assert!((PI * 900.0 / (n * n) as f64 / whole.ratio - 1.0).abs() < 0.01);
     }
+
+    /// Against the definition, on random maps: two pixels under pressure are of one patch if a chain of
+    /// touching neighbours joins them, over sides, corners and the edges of a periodic map.
+    #[test]
+    fn patches_are_what_chains_of_neighbours_join() {
+        let mut state = 3_u32;
+        let mut drawn = |n: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % n
+        };
+        for _ in 0..200 {
+            let (nx, ny, periodic) = (1 + drawn(7) as usize, 1 + drawn(7) as usize, drawn(2) == 0);
+            let map = HeightMap::new(nx, ny, [1e-6; 2], vec![0.0; nx * ny]).unwrap().with_periodic(periodic);
+            let pressures: Vec<f32> = (0..nx * ny).map(|_| f32::from(u8::from(drawn(3) == 0))).collect();
+            let apart = |a: usize, b: usize, n: usize| {
+                let d = a.abs_diff(b);
+                if periodic { d.min(n - d) } else { d }
+            };
+            let joined =
+                |i: usize, j: usize| apart(i % nx, j % nx, nx) <= 1 && apart(i / nx, j / nx, ny) <= 1;
+            let mut label: Vec<usize> = (0..nx * ny).collect();
+            for _ in 0..nx * ny {
+                for i in (0..nx * ny).filter(|i| pressures[*i] > 0.0) {
+                    for j in (0..nx * ny).filter(|j| pressures[*j] > 0.0 && joined(i, *j)) {
+                        label[i] = label[i].min(label[j]);
+                    }
+                }
+            }
+            let mut sizes = vec![0; nx * ny];
+            (0..nx * ny).filter(|i| pressures[*i] > 0.0).for_each(|i| sizes[label[i]] += 1);
+            let mut wanted: Vec<usize> = sizes.into_iter().filter(|size| *size > 0).collect();
+            let mut found = Vec::new();
+            let count = each_patch(&map, &pressures, |patch| found.push(patch.len()));
+            assert_eq!(
+                (count, patches(&map, &pressures)),
+                (wanted.len(), wanted.len()),
+                "{map:?} {pressures:?}"
+            );
+            wanted.sort_unstable();
+            found.sort_unstable();
+            assert_eq!(found, wanted, "{pressures:?}");
+        }
+    }
 }

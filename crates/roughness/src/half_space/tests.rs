@@ -37,6 +37,7 @@ fn a_sphere_follows_hertz() {
     let found = elastic(1e-6).press(&surface, Load::Pressure(force / nominal)).unwrap();
     close("area", found.area.corrected * nominal, PI * a * a, 5e-3);
     close("pressure", found.largest_pressure, 2.0 * MODULUS * a / (PI * radius), 5e-3);
+    close("mean pressure", found.mean_pressure().unwrap(), force / (PI * a * a), 1e-2);
     // first touch is the highest node, half a pixel off the middle
     let approach = -(found.separation + surface.parameters.mean);
     close("approach", approach, a * a / radius, 5e-3);
@@ -358,4 +359,80 @@ fn long_pixels_work_or_are_refused_with_their_reason() {
             Err(other) => panic!("{ratio}: {other}"),
         }
     }
+}
+
+/// The contact of a surface does not hang on the side that it is seen from, nor that of a periodic one on
+/// where it begins.
+#[test]
+fn a_contact_knows_no_side_and_no_beginning() {
+    let (nx, ny, pixel) = (54, 40, [1e-6, 1.4e-6]);
+    let grid = Grid { nodes: [nx, ny], pixel, seed: 21 };
+    let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 30e-6, cutoff: 7e-6 };
+    let drawn = generate(kind, &grid, Target::Height(0.3e-6)).unwrap();
+    let z = drawn.heights();
+    let numbers = |nodes: [usize; 2], pixel: [f64; 2], z: Vec<f64>, periodic: bool, limit: Option<f64>| {
+        let map = HeightMap::new(nodes[0], nodes[1], pixel, z).unwrap().with_periodic(periodic);
+        let body = HalfSpace { limit, ..elastic(1e-9) };
+        let found = body.press(&Surface::from_map(map).unwrap(), Load::Pressure(8e8)).unwrap();
+        let stiffness = found.stiffness.unwrap();
+        [
+            found.area.ratio,
+            found.area.corrected,
+            1.0 + found.area.error,
+            found.mean_gap / 1e-7,
+            found.largest_pressure / 1e9,
+            found.elastic_work,
+            stiffness,
+            found.plane_stiffness.unwrap_or(1.0),
+            1.0 + found.limited_share,
+        ]
+    };
+    for (periodic, limit) in [(true, None), (false, None), (true, Some(6e9)), (false, Some(6e9))] {
+        let of = |at: &dyn Fn(usize, usize) -> [usize; 2]| {
+            let from = |i: usize| {
+                let [x, y] = at(i % nx, i / nx);
+                z[y * nx + x]
+            };
+            numbers([nx, ny], pixel, (0..nx * ny).map(from).collect(), periodic, limit)
+        };
+        let own = of(&|x, y| [x, y]);
+        let exchanged = (0..nx * ny).map(|i| z[i % ny * nx + i / ny]).collect();
+        let mut others = vec![
+            of(&|x, y| [nx - 1 - x, y]),
+            of(&|x, y| [x, ny - 1 - y]),
+            numbers([ny, nx], [pixel[1], pixel[0]], exchanged, periodic, limit),
+        ];
+        if periodic {
+            others.push(of(&|x, y| [(x + 17) % nx, (y + 9) % ny]));
+        }
+        for other in others {
+            for (a, b) in own.into_iter().zip(other) {
+                assert!((a / b - 1.0).abs() < 1e-4, "{periodic} {limit:?}: {own:?} {other:?}");
+            }
+        }
+    }
+}
+
+/// The area of two limits beside each other falls by no more than the sensitivity says, and by all of it where
+/// it is load over limit.
+#[test]
+fn the_area_hangs_on_the_limit_by_no_more_than_its_sensitivity() {
+    let surface = rough(64, true);
+    let at = |limit: f64, load: f64| {
+        HalfSpace { limit: Some(limit), ..elastic(1e-9) }.press(&surface, Load::Pressure(load)).unwrap()
+    };
+    for share in [0.05, 0.3, 0.9] {
+        let [found, harder] = [1e9, 1.01e9].map(|limit| at(limit, share * 1e9));
+        let falls = (found.area.corrected / harder.area.corrected).ln() / 1.01f64.ln();
+        let said = found.limit_sensitivity(1e9);
+        assert!(
+            said > 0.2 && said <= 1.0 && falls > 0.0 && falls < said + 0.05,
+            "{share}: {falls} of {said}"
+        );
+    }
+    let found = at(1e9, 0.5e9);
+    assert_eq!(found.limit_sensitivity(f64::INFINITY), 0.0);
+    assert_eq!(at(1e9, 0.0).limit_sensitivity(1e9), 0.0);
+    let none = HalfSpace { reduced_modulus: 0.0, ..elastic(1e-6) };
+    assert!(matches!(none.press(&surface, Load::Pressure(1e6)), Err(HalfSpaceError::Value { .. })));
 }

@@ -311,3 +311,25 @@ fn tests_below_each_other_are_parted_where_the_tool_is_at_the_surface_again() {
         assert!(table.map_or(true, |table| table.series.len() == 1), "{one:?}");
     }
 }
+
+/// Instruments write the name of a segment on a line of its own, and some the names of the columns again.
+#[test]
+fn segments_of_a_test_are_one_test() {
+    let (names, load, hold, unload) =
+        ("Depth (nm),Load (mN)\n", "100,2\n200,8\n", "201,8\n", "150,3\n120,0\n");
+    for text in [
+        format!("{names}Segment 1\n{load}Segment 2\n{hold}Segment 3\n{unload}"),
+        format!("{names}{load}Hold\n{hold}Unload\n{unload}"),
+        format!(
+            "[Segment 1]\n{names}{load}\n[Segment 2]\n{names}{hold}\n[Segment: 3 (Unload)]\n{names}{unload}"
+        ),
+        format!("Loading\n{names}{load}Holding\n{names}{hold}Unloading\n{names}{unload}"),
+    ] {
+        let table = indentation::read(&text, COLUMNS, None).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!((table.series.len(), table.series[0].rows.len()), (1, 5), "{text} {table:?}");
+    }
+    // each of two tests begins with its first segment
+    let one = format!("Segment 1\n{names}{load}Segment 2\n{names}{unload}");
+    let table = indentation::read(&format!("{one}{one}"), COLUMNS, None).unwrap();
+    assert_eq!(table.series.iter().map(|test| test.rows.len()).collect::<Vec<_>>(), [4, 4], "{table:?}");
+}
