@@ -25,8 +25,8 @@ const EXPECTED_ORDERS: [f64; 2] = [1.5, 1.0];
 /// Range of an order that two rounds show: chance may make it anything.
 const ORDERS: [f64; 2] = [0.5, 2.0];
 
-/// Power of the fineness with which the work grows: 2 of the elements, and 1 of the steps where they are finer
-/// too.
+/// Power of the fineness with which the work grows: 2 of the elements, and 1 of the steps where they are
+/// finer too.
 const WORK_EXPONENT: [f64; 2] = [2.0, 3.0];
 
 /// Work of a companion over that of its run.
@@ -112,8 +112,8 @@ impl Finer {
         self.factor == FACTORS[1] && self.steps
     }
 
-    /// The one that is made of it after rounds that took `spent` times the work of the first, the last of them
-    /// `before` times that; `None` where the work that is left brings nothing.
+    /// The numbers that come of it after rounds that took `spent` times the work of the first, the last of
+    /// them `before` times that; `None` where the work that is left brings nothing.
     fn affordable(self, before: f64, spent: f64) -> Option<Finer> {
         let factor = if self.factor > NEARLY_TWICE { FACTORS[1] } else { self.factor.max(FACTORS[0]) };
         let wanted = Finer { factor, ..self };

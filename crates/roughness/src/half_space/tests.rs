@@ -413,8 +413,8 @@ fn a_contact_knows_no_side_and_no_beginning() {
     }
 }
 
-/// The area of two limits beside each other falls by no more than the sensitivity says, and by all of it where
-/// it is load over limit.
+/// From one limit to the next the area falls by no more than the sensitivity says, and by all of it where it
+/// is load over limit.
 #[test]
 fn the_area_hangs_on_the_limit_by_no_more_than_its_sensitivity() {
     let surface = rough(64, true);

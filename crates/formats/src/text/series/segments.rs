@@ -39,8 +39,8 @@ pub(super) fn is_segment(cell: &str) -> bool {
     SEGMENTS.contains(&folded(cell).as_str())
 }
 
-/// A line that names a segment and nothing else: `Segment 2`, `Hold`, `[Segment: 3 (Unload)]`; true where it is
-/// one with which no test begins.
+/// A line that names a segment and nothing else: `Segment 2`, `Hold`, `[Segment: 3 (Unload)]`; true where it
+/// is one with which no test begins.
 pub(super) fn named_segment(line: &str) -> Option<bool> {
     let plain: String = line.chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
     let words: Vec<String> = plain.split_whitespace().map(folded).collect();
