@@ -369,7 +369,12 @@ fn a_contact_knows_no_side_and_no_beginning() {
     let grid = Grid { nodes: [nx, ny], pixel, seed: 21 };
     let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 30e-6, cutoff: 7e-6 };
     let drawn = generate(kind, &grid, Target::Height(0.3e-6)).unwrap();
-    let z = drawn.heights();
+    let whole = drawn.heights().to_vec();
+    // a line and a pattern of points that were not measured
+    let mut holed = whole.clone();
+    for i in (0..nx * ny).filter(|i| i % nx == 20 || i % 7 == 3 && i / nx % 4 == 1) {
+        holed[i] = f64::NAN;
+    }
     let numbers = |nodes: [usize; 2], pixel: [f64; 2], z: Vec<f64>, periodic: bool, limit: Option<f64>| {
         let map = HeightMap::new(nodes[0], nodes[1], pixel, z).unwrap().with_periodic(periodic);
         let body = HalfSpace { limit, ..elastic(1e-9) };
@@ -387,7 +392,14 @@ fn a_contact_knows_no_side_and_no_beginning() {
             1.0 + found.limited_share,
         ]
     };
-    for (periodic, limit) in [(true, None), (false, None), (true, Some(6e9)), (false, Some(6e9))] {
+    for (z, periodic, limit) in [
+        (&whole, true, None),
+        (&whole, false, None),
+        (&whole, true, Some(6e9)),
+        (&whole, false, Some(6e9)),
+        (&holed, true, None),
+        (&holed, false, None),
+    ] {
         let of = |at: &dyn Fn(usize, usize) -> [usize; 2]| {
             let from = |i: usize| {
                 let [x, y] = at(i % nx, i / nx);
