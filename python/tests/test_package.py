@@ -390,6 +390,36 @@ def test_the_scripts_of_the_front_page_run(tmp_path: pathlib.Path, monkeypatch: 
     exec(front_page[1].split("```")[0], scope)
     assert 0 < scope["ball"].summary["estimated_error"] < 0.05
     assert len(scope["study"].results) == 12 and set(scope["study"].results["status"]) == {"ok"}
+    # the arrays of a ball's curve give its metal back
+    found = scope["found"].parameters["yield_stress"]
+    assert found["low"] < 200.0 < found["high"] and found["high"] < 1.2 * found["low"], found
+
+
+def test_doubts_are_told_as_warnings() -> None:
+    deep: Any = {**SCENE, "loading": {"depth": "20 um"}}
+    with pytest.warns(UserWarning, match="contact area"):
+        result = asperity.crush(deep)
+    assert result.warnings
+
+
+def test_a_wrong_name_is_told_those_like_it_and_a_wrong_scene_where_it_goes() -> None:
+    result = asperity.crush(asperity.Scene(**SCENE))
+    with pytest.raises(KeyError, match="peak_force_N"):
+        result.summary["peak_force"]
+    rough = asperity.RoughScene(material=STEEL, closure="johnson", surface={}, load={"pressure": "50 MPa"})
+    with pytest.raises(asperity.InputError, match="press"):
+        asperity.crush(rough)  # type: ignore[arg-type]
+    with pytest.raises(asperity.InputError, match="crush"):
+        asperity.press(asperity.Scene(**SCENE))
+    wrong = {"material": SCENE["material"], "curve": [{"depth_um": [0, 1], "force_N": [0]}]}
+    with pytest.raises(asperity.InputError, match="go together"):
+        asperity.identify(wrong)
+
+
+def test_a_study_takes_the_tables_of_a_scene() -> None:
+    tables: Any = SCENE
+    study = asperity.study(tables, {"loading.depth": ["1 um", "2 um"]})
+    assert list(study.results["status"]) == ["ok", "ok"]
 
 
 def test_a_joint_is_a_table_with_its_errors_and_the_files_of_the_command(tmp_path: pathlib.Path) -> None:

@@ -58,7 +58,12 @@ fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, Unit
         )));
     }
     let value: f64 = number.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| {
-        UnitError(format!("\"{text}\" is not a finite number with a unit of {dimension} ({})", names()))
+        let comma = number.replace(',', ".");
+        let way = match comma.parse::<f64>() {
+            Ok(_) if comma != number => format!(": write the decimal point, \"{comma} {unit}\""),
+            _ => String::new(),
+        };
+        UnitError(format!("\"{text}\" is not a finite number with a unit of {dimension} ({}){way}", names()))
     })?;
     let scale = units.iter().find(|(name, _)| *name == unit).map(|(_, scale)| *scale).ok_or_else(|| {
         let factor = conversion(unit);
@@ -253,6 +258,8 @@ mod tests {
         for bad in ["20", "20 MPa", "nan um", "inf um", "um", "", "1e400 um", "1e-320 nm", "1 2 um"] {
             assert!(bad.parse::<Length>().is_err(), "{bad}");
         }
+        let said = "3,5 um".parse::<Length>().unwrap_err().to_string();
+        assert!(said.ends_with("write the decimal point, \"3.5 um\""), "{said}");
     }
 
     #[test]

@@ -13,8 +13,10 @@ True
 
 Every function computes in a thread of its own without the interpreter's lock, ends at Ctrl-C, and takes ``progress``, a
 function of the share that is done (0 to 1) and a text.  What is wrong with a scene is an :class:`InputError` that names its key.
+Doubts about a result are in its ``warnings``, and are told by Python's own as well.
 """
 
+from . import keys
 from ._asperity import (
     InputError,
     RoughScene,
@@ -59,6 +61,7 @@ __all__ = [
     "extract",
     "identify",
     "joint",
+    "keys",
     "press",
     "scales",
     "study",

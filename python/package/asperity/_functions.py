@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import pathlib
 import tempfile
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -43,7 +45,20 @@ def _scene(scene: Scene | SceneTable | PathLike) -> Scene:
     if isinstance(scene, Mapping):
         tables: Any = scene
         return _asperity.Scene(**tables)
-    return scene if isinstance(scene, _asperity.Scene) else _asperity.Scene.from_toml(os.fspath(scene))
+    if isinstance(scene, _asperity.Scene):
+        return scene
+    if isinstance(scene, str | os.PathLike):
+        return _asperity.Scene.from_toml(os.fspath(scene))
+    where = ": a RoughScene goes to press" if isinstance(scene, _asperity.RoughScene) else ""
+    raise _asperity.InputError(
+        f"a scene is a Scene, a dict of its tables or the path of its file, not {type(scene).__name__}{where}"
+    )
+
+
+def _told(doubts: list[str]) -> None:
+    """Tells doubts about a result as warnings, at the line that asked for it."""
+    for doubt in doubts:
+        warnings.warn(doubt, stacklevel=3)
 
 
 def crush(
@@ -65,12 +80,14 @@ def crush(
     ``partial``.
     """
     try:
-        return Crush(_asperity.crush(_scene(scene), accuracy, _path(out), progress))
+        result = Crush(_asperity.crush(_scene(scene), accuracy, _path(out), progress))
     except BaseException as error:
         reached = getattr(error, "partial", None)
         if isinstance(reached, _asperity.Crush):
             error.__dict__["partial"] = Crush(reached)
         raise
+    _told(result.warnings)
+    return result
 
 
 def _heights(surface: Any, pixel_size_um: PixelSize | None) -> tuple[FloatArray, tuple[float, float]]:
@@ -110,6 +127,8 @@ def _surface(
     surface: Any, pixel_size_um: PixelSize | None, tables: Mapping[str, object]
 ) -> tuple[RoughScene, FloatArray | None, tuple[float, float] | None]:
     """The scene of a surface however it is given, with heights in µm and their pixel where they are no file."""
+    if isinstance(surface, _asperity.Scene):
+        raise _asperity.InputError("a Scene goes to crush: give heights, the path of a map, or a RoughScene")
     scene: dict[str, Any] = dict(tables)
     whole = surface if isinstance(surface, _asperity.RoughScene) else None
     if isinstance(surface, str | os.PathLike):
@@ -162,7 +181,9 @@ def press(
         ``surface={"level": "none", "periodic": True}`` says what is done to them.
     :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
     """
-    return Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _path(out), progress))
+    result = Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _path(out), progress))
+    _told(result.warnings)
+    return result
 
 
 def joint(
@@ -190,7 +211,9 @@ def joint(
         {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
     ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
-    return Joint(_asperity.joint(taken, _path(out), progress))
+    result = Joint(_asperity.joint(taken, _path(out), progress))
+    _told(result.warnings)
+    return result
 
 
 def scales(
@@ -216,7 +239,9 @@ def scales(
         {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
     ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
-    return Scales(_asperity.scales(taken, _path(out), progress))
+    result = Scales(_asperity.scales(taken, _path(out), progress))
+    _told(result.warnings)
+    return result
 
 
 def extract(
@@ -306,6 +331,27 @@ def trade(
     return Trade(*_asperity.trade(_scene(scene), combinations, _path(out), progress))
 
 
+def _with_files(curves: Any, folder: str) -> Any:
+    """Curves with files in ``folder`` in the place of arrays."""
+    if not isinstance(curves, list | tuple):
+        return curves
+
+    def with_file(i: int, curve: Any) -> Any:
+        given = [name for name in ("depth_um", "force_N") if isinstance(curve, Mapping) and name in curve]
+        if not given:
+            return curve
+        if len(given) == 1 or np.shape(curve["depth_um"]) != np.shape(curve["force_N"]):
+            raise _asperity.InputError(
+                f"curve[{i}]: depth_um and force_N go together: give an array of each, as long as the other"
+            )
+        file = pathlib.Path(folder) / f"curve-{i + 1}.csv"
+        rows = np.column_stack([np.asarray(curve[name], dtype=np.float64) for name in given])
+        np.savetxt(file, rows, fmt="%.17g", delimiter=",", header=",".join(given), comments="")
+        return {**{name: value for name, value in curve.items() if name not in given}, "file": str(file)}
+
+    return [with_file(i, curve) for i, curve in enumerate(curves)]
+
+
 def identify(
     fit: Mapping[str, Any] | PathLike,
     *,
@@ -316,10 +362,13 @@ def identify(
     """Finds the metal from measured force-depth curves, or from features of them.
 
     >>> import asperity
-    >>> found = asperity.identify("fit.toml")  # doctest: +SKIP
+    >>> metal = {"youngs_modulus": "200 GPa", "poissons_ratio": 0.3, "yield_stress": ["50 MPa", "2 GPa"], "hardening_exponent": 0.1}
+    >>> curve = {"depth_um": depth, "force_N": force, "tool": {"shape": "berkovich"}, "noise": "2 %"}  # doctest: +SKIP
+    >>> found = asperity.identify({"material": metal, "curve": [curve]})  # doctest: +SKIP
     >>> found.parameters["yield_stress"]["low"]  # doctest: +SKIP
 
-    :param fit: the path of a fit file, or its tables: what is known is a value, what is sought a list of two.
+    :param fit: the path of a fit file, or its tables: what is known is a value, what is sought a list of two. A curve has a
+        ``file``, or arrays ``depth_um`` and ``force_N`` in its place.
     :param set: keys of the file and the value that they have instead.
     :param out: folder for the files of ``asperity identify``; files of the same name are replaced.
     :raises InputError: a fit or a table of readings that makes no sense.
@@ -330,13 +379,24 @@ def identify(
             raise TypeError("set changes a file: change the tables themselves")
     else:
         tables = os.fspath(fit)
-    return Identification(
-        *_asperity.identify(tables, None if set is None else dict(set), _path(out), progress)
-    )
+    with tempfile.TemporaryDirectory() as folder:
+        if isinstance(tables, dict) and "curve" in tables:
+            tables["curve"] = _with_files(tables["curve"], folder)
+        return Identification(
+            *_asperity.identify(tables, None if set is None else dict(set), _path(out), progress)
+        )
+
+
+def _any_scene(scene: Any) -> Any:
+    """A scene of any kind, or that of its tables, or the path of a file."""
+    if isinstance(scene, Mapping):
+        is_rough = "surface" in scene or "closure" in scene
+        return _asperity.RoughScene(**scene) if is_rough else _asperity.Scene(**scene)
+    return scene if isinstance(scene, _asperity.Scene | _asperity.RoughScene) else os.fspath(scene)
 
 
 def study(
-    scene: Scene | RoughScene | PathLike,
+    scene: Scene | RoughScene | SceneTable | RoughTable | PathLike,
     vary: Mapping[str, Any],
     *,
     sample: str | tuple[str, int] = "grid",
@@ -357,7 +417,7 @@ def study(
     >>> scene = asperity.Scene.from_toml("meshes/single-asperity.toml")  # doctest: +SKIP
     >>> study = asperity.study(scene, {"material.hardening_exponent": [0, 0.1], "loading.depth": "1 um..5 um/5"})  # doctest: +SKIP
 
-    :param scene: a scene or the path of its file.
+    :param scene: a scene, a dict of its tables, or the path of its file.
     :param vary: keys and their values: a list, or a text such as ``"1 um..5 um/5"``, ``"5..500/3 log"``.
     :param sample: ``grid`` (every combination), ``list`` (values in step), ``("lhs", 100)`` or ``("sobol", 128)``, drawn from
         ranges such as ``"1 um..5 um"``.
@@ -376,7 +436,7 @@ def study(
     table: dict[str, Any] = {"kind": given[0], "seed": seed, "points": given[1] if len(given) > 1 else None}
     surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
     results = _asperity.study(
-        scene if isinstance(scene, _asperity.Scene | _asperity.RoughScene) else os.fspath(scene),
+        _any_scene(scene),
         dict(vary),
         table,
         None if set is None else dict(set),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import html
 import json
 import os
 import pathlib
@@ -41,11 +43,19 @@ def as_json(value: object) -> str:
     return json.dumps(plain(value), allow_nan=False)
 
 
-def _page(html: str, path: PathLike | None) -> str:
+def _page(page: str, path: PathLike | None) -> str:
     """The page, which is written too where there is a path."""
     if path is not None:
-        pathlib.Path(path).write_text(html, encoding="utf-8")
-    return html
+        pathlib.Path(path).write_text(page, encoding="utf-8")
+    return page
+
+
+class Numbers(dict[str, Any]):
+    """The numbers of a result by name; of a name that is not there it tells those that are like it."""
+
+    def __missing__(self, name: str) -> Any:
+        near = difflib.get_close_matches(name, self, 3, 0.5)
+        raise KeyError(f"{name}: there are {', '.join(near or self)}")
 
 
 class Table(Mapping[str, Array]):
@@ -157,13 +167,17 @@ class Fields:
 
 
 class Crush:
-    """The result of a crush."""
+    """The result of a crush.
+
+    ``curve`` and ``summary`` hold its numbers, ``warnings`` the promises of the accuracy that it does not keep, ``fields(i)`` the
+    fields of an increment; ``asperities``, ``gaps`` and ``cycles`` what several contacts and reloads have beside.
+    """
 
     def __init__(self, inner: _asperity.Crush) -> None:
         self._inner = inner
         self.curve = Table(inner.curve())
         """Loading and unloading, a row an increment: ``curve["depth_um"]``."""
-        self.summary: dict[str, Any] = inner.summary()
+        self.summary = Numbers(inner.summary())
         """The numbers of ``summary.json``."""
         self.warnings: list[str] = inner.warnings()
         """Promises of the accuracy that the run does not keep."""
@@ -216,7 +230,12 @@ class Crush:
 
 
 class Rough:
-    """The contact of a rough surface with a rigid plane, by one closure or several."""
+    """The contact of a rough surface with a rigid plane, by one closure or several.
+
+    ``table`` has a row a closure, in which ``contact_area_ratio`` counts whole pixels and ``contact_area_ratio_corrected``, whose
+    error is ``area_error``, does without their corners; ``load_curve``, ``summary``, ``warnings``, and the maps ``pressure()``,
+    ``contact()``, ``regime()`` and ``gap()``.
+    """
 
     def __init__(self, inner: _asperity.Rough) -> None:
         self._inner = inner
@@ -224,7 +243,7 @@ class Rough:
         """A row a closure."""
         self.load_curve = Table(inner.load_curve())
         """From first touch to the load and back."""
-        self.summary: dict[str, Any] = inner.summary()
+        self.summary = Numbers(inner.summary())
         """The numbers of ``summary.json``."""
         self.warnings: list[str] = inner.warnings()
         """Remarks on the trust in the numbers."""
@@ -262,7 +281,7 @@ class Rough:
         return f"<Rough\n{self._inner.text()}>"
 
     def _repr_html_(self) -> str:
-        return self.table._repr_html_()
+        return f"<pre>{html.escape(self._inner.text())}</pre>"
 
 
 class Joint:
@@ -274,7 +293,7 @@ class Joint:
         """The rows of ``joint.csv``."""
         self.law = Table(inner.law())
         """Approach and pressure for straight lines between them."""
-        self.summary: dict[str, Any] = inner.summary()
+        self.summary = Numbers(inner.summary())
         """The numbers of ``joint.json``."""
         self.warnings: list[str] = self.summary["warnings"]
         """Remarks on the trust in the numbers."""
@@ -303,7 +322,7 @@ class Scales:
         """The rows of ``scales.csv``."""
         self.slopes = Table(inner.slopes())
         """The rows of ``slopes.csv``."""
-        self.summary: dict[str, Any] = inner.summary()
+        self.summary = Numbers(inner.summary())
         """The numbers of ``summary.json``."""
         self.verdicts: dict[str, dict[str, Any]] = self.summary["verdicts"]
         """Of each quantity its class, the cut-off from which on it holds, its error and its exponent."""
@@ -340,7 +359,7 @@ class Extraction:
 
         self.asperities = Table(asperities)
         """A row an asperity, from the highest down."""
-        self.summary = summary
+        self.summary = Numbers(summary)
         """The numbers of ``summary.json``."""
         self.compared = None if compared is None else Table(compared)
         """Force and area of each closure beside the finite elements; None where nothing was crushed."""
@@ -440,7 +459,11 @@ class Study:
 
 
 class Identification:
-    """A metal found from measured curves, with intervals and a verdict whether the curves can tell."""
+    """A metal found from measured curves, with intervals and a verdict whether the curves can tell.
+
+    ``parameters`` holds what was sought, ``verdict`` a sentence on it, ``fit`` all numbers, ``fit["material"]`` the metal for a
+    scene, ``samples`` the posterior.
+    """
 
     def __init__(
         self,
@@ -467,7 +490,10 @@ class Identification:
         return _page(self._report, path)
 
     def __repr__(self) -> str:
-        return f"<Identification\n{self._text}>"
+        # the files that the command speaks of are written with `out`
+        lines = [line for line in self._text.split("\n") if not line.startswith("use it")]
+        use = 'use it    asperity.Scene(material=found.fit["material"], ...) takes this metal'
+        return "\n".join(["<Identification", *lines, use]) + ">"
 
     def _repr_svg_(self) -> str | None:
         return self.curve_svg

@@ -163,7 +163,8 @@ mod tests {
     use asperity_mesh::Punch;
     use asperity_mesh::outline::Parabola;
 
-    /// Slope and curvature are the derivatives of the depth (central differences, step 1e-5: error ≈ 1e-10).
+    /// Slope and curvature are the derivatives of the depth (central differences, step 1e-5: error ≈ 1e-10),
+    /// which is the same for tool and point raised together and on either side of the axis.
     #[test]
     fn derivatives_are_the_derivatives() {
         let tools = [
@@ -180,6 +181,10 @@ mod tests {
             for x in [[0.1, 0.2], [0.6, 0.1], [1.5, 0.4], [2.0, -0.3], [-1.1, 0.3]] {
                 let at = |r: f64, z: f64| tool.penetration([r, z], -0.1);
                 let here = at(x[0], x[1]);
+                let (raised, other) = (tool.penetration([x[0], x[1] + 2.7], 2.6), at(-x[0], x[1]));
+                assert!((raised.depth - here.depth).abs() < 1e-12, "{tool:?} {x:?}");
+                assert!((other.depth - here.depth).abs() < 1e-12, "{tool:?} {x:?}");
+                assert!((other.slope[0] + here.slope[0]).abs() < 1e-12, "{tool:?} {x:?}");
                 let (left, right) = (at(x[0] - d, x[1]), at(x[0] + d, x[1]));
                 let (below, above) = (at(x[0], x[1] - d), at(x[0], x[1] + d));
                 assert!(((right.depth - left.depth) / (2.0 * d) - here.slope[0]).abs() < 1e-8);
