@@ -82,6 +82,32 @@ fn a_companion_that_ends_early_shifts_nothing() {
     assert!(whole.errors.force <= early.errors.force, "{} {}", whole.errors.force, early.errors.force);
 }
 
+/// A row has the bound of its neighbourhood: beside the peak the line of the companion has moved the force by
+/// 2 %, at the first touch by ten times as much.
+#[test]
+fn a_row_has_the_bound_of_its_own_depth() {
+    let found = compared(&cone(), 1.0);
+    let loading = || found.rows.iter().filter(|row| row.phase == Phase::Load && row.force > 0.0);
+    let bounds: Vec<f64> = loading().filter_map(|row| row.force_error).collect();
+    let [Some(first), Some(last)] = [bounds.first(), bounds.last()] else { panic!("no bounds") };
+    assert!(*last < 0.019 && *first > 2.0 * last, "{first} {last}");
+}
+
+/// A run to a force that missed it by a little is moved along a cone's curve: its pressures stay those of its
+/// force and area.
+#[test]
+fn a_force_that_is_met_keeps_pressure_times_area() {
+    let run = cone();
+    let asked = 1.02 * last_loaded(&run.rows).unwrap().force;
+    let met = rescale_to_force(run.clone(), asked, Symmetry::Axisymmetric);
+    assert!((last_loaded(&met.rows).unwrap().force / asked - 1.0).abs() < 1e-12);
+    for (row, before) in met.rows.iter().zip(&run.rows).filter(|(row, _)| row.force > 0.0) {
+        let kept = |row: &CurveRow| row.mean_pressure * row.contact_area / row.force;
+        assert!((kept(row) / kept(before) - 1.0).abs() < 1e-12, "{row:?}");
+        assert!(row.depth > before.depth && row.contact_area > before.contact_area);
+    }
+}
+
 #[test]
 fn a_companion_that_ends_long_before_says_nothing() {
     let run = cone();

@@ -122,6 +122,11 @@ mod tests {
         // a bump between two samples
         close(above_zero(|x| 1e-6 - (x - 0.13).powi(2)), &[[0.129, 0.131]]);
         close(above_zero(|x| (x + 0.5) * (x - 0.2) * (x - 0.3) * (x - 0.9)), &[[-1.0, -0.5], [0.2, 1.0]]);
+        // of three parts the two that are closest are one
+        let three = |x: f64| -(x + 0.9) * (x + 0.6) * (x + 0.1) * (x - 0.2) * (x - 0.3) * (x - 0.8);
+        close(above_zero(three), &[[-0.9, -0.6], [-0.1, 0.8]]);
+        let mirrored = |x: f64| -(x - 0.9) * (x - 0.6) * (x - 0.1) * (x + 0.2) * (x + 0.3) * (x + 0.8);
+        close(above_zero(mirrored), &[[-0.8, 0.1], [0.6, 0.9]]);
         // a bump that is narrow beside the samples of the edge, between two places
         let bump = |x: f64| if (0.3..0.302).contains(&x) { 0.0005 - (x - 0.301).abs() } else { -0.0005 };
         close(parts_above_zero(bump, &[0.3, 0.301, 0.302]), &[[0.3005, 0.3015]]);

@@ -208,3 +208,33 @@ pub fn elastic_energy(elastic: &Elastic, memory: &History) -> f64 {
     }
     0.5 * elastic.bulk_modulus() * volume * volume + elastic.shear_modulus() * contract(&dev, &dev)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_material::{Hardening, HardeningLaw};
+
+    /// Along a line the back stress keeps pace with the curve: √(3/2)|Δα| = m [σ(ε_p + Δε_p) - σ(ε_p)].
+    #[test]
+    fn an_extrapolated_back_stress_rises_by_its_share_of_the_curve() {
+        let law = HardeningLaw::Swift;
+        let curve = Hardening { law, yield_stress: 1.0, exponent: 0.2, youngs_modulus: 500.0 };
+        let elastic = Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 };
+        for share in [0.4, 1.0] {
+            let metal = Metal {
+                elastic,
+                hardening: Some(curve.clone().into()),
+                kinematic_share: share,
+                stress_measure: asperity_material::StressMeasure::Kirchhoff,
+            };
+            let start = metal.virgin();
+            let flowed = PlasticIncrement { strain: [-0.01, 0.02, -0.01, 0.0], accumulated: 0.02 };
+            let (state, memory) = extrapolate(&metal, &start, &History::default(), &flowed);
+            assert!(state.plastic_strain == 0.02 && memory.plastic == flowed.strain);
+            let rise = state.yield_stress - start.yield_stress;
+            assert!(rise > 0.1, "{rise}");
+            let size = root() * contract(&memory.back, &memory.back).sqrt();
+            assert!((size / (share * rise) - 1.0).abs() < 1e-12, "{size} {rise}");
+        }
+    }
+}
