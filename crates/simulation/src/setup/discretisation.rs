@@ -46,8 +46,8 @@ struct Choice {
 /// it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [10.0, 29.0, 6.0, 1e-3, 40.0, 0.008]),
-    (Accuracy::Standard, [21.0, 54.0, 10.0, 1e-3, 60.0, 0.004]),
-    (Accuracy::Reference, [46.0, 160.0, 12.0, 1e-3, 200.0, 0.002]),
+    (Accuracy::Standard, [20.0, 58.0, 10.0, 1e-3, 60.0, 0.0042]),
+    (Accuracy::Reference, [46.0, 170.0, 12.0, 1e-3, 200.0, 0.002]),
 ];
 
 impl Choice {
@@ -361,6 +361,6 @@ mod tests {
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }
-        assert_eq!((before.elements, before.steps, before.domain), (46, 160, 200.0));
+        assert_eq!((before.elements, before.steps, before.domain), (46, 170, 200.0));
     }
 }
