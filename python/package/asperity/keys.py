@@ -156,8 +156,8 @@ class MaterialTable(TypedDict, total=False):
     hardening_file: str
     """For hardening_law = "table": a csv file, relative to the scene file, whose first line is
     plastic_strain,yield_stress_MPa, or total_strain in place of plastic_strain, of which stress over Young's modulus is
-    subtracted; linear between its points, constant beyond the last. A resolved scene has `hardening_table` in its
-    place.
+    subtracted; or an input file of Abaqus or CalculiX with *PLASTIC, whose unit of stress its *ELASTIC tells. Linear
+    between its points, constant beyond the last. A resolved scene has `hardening_table` in its place.
     """
 
     hardening_law: Literal["hollomon", "swift", "voce", "table"]
