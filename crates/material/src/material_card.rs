@@ -32,7 +32,7 @@ const STRESS_UNITS: [(&str, f64); 6] =
     [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("psi", PSI), ("ksi", 1e3 * PSI)];
 
 /// Pa of a pound per square inch.
-const PSI: f64 = 6894.757_293_168_361;
+const PSI: f64 = 6_894.757_293_168_361;
 
 /// Difference of two Young's moduli of one metal, as a share.
 const MODULUS_TOLERANCE: f64 = 0.1;

@@ -190,7 +190,8 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         if !is_row(bare) {
             if let Some(header) = Header::new(&self.dialect, line, text, self.wanted, self.named) {
                 // each segment may have the names above it
-                if !self.goes_on || !self.block.as_ref().is_some_and(|b| b.header.text.trim() == bare) {
+                let is_same = self.block.as_ref().is_some_and(|block| block.header.text.trim() == bare);
+                if !(self.goes_on && is_same) {
                     self.begin(header);
                 }
                 return Ok(());

@@ -197,7 +197,7 @@ fn a_leak_knows_no_side_and_no_beginning() {
     let [nx, ny] = [48, 40];
     let height = |i: usize| {
         let (x, y) = ((i % nx) as f32 / nx as f32, (i / nx) as f32 / ny as f32);
-        let wave = |kx: f32, ky: f32, phase: f32| (6.283_185_3 * (kx * x + ky * y) + phase).sin();
+        let wave = |kx: f32, ky: f32, phase: f32| (std::f32::consts::TAU * (kx * x + ky * y) + phase).sin();
         1e-6 * (0.7 + wave(1.0, 2.0, 0.3) + 0.7 * wave(3.0, -1.0, 1.0) + 0.5 * wave(-2.0, 5.0, 2.0)).max(0.0)
     };
     let mut whole: Vec<f32> = (0..nx * ny).map(height).collect();

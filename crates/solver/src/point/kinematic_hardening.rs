@@ -223,7 +223,7 @@ mod tests {
         for share in [0.4, 1.0] {
             let metal = Metal {
                 elastic,
-                hardening: Some(curve.clone().into()),
+                hardening: Some(curve.into()),
                 kinematic_share: share,
                 stress_measure: asperity_material::StressMeasure::Kirchhoff,
             };
