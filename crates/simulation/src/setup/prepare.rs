@@ -285,9 +285,8 @@ const CORE_WIDTH_RATIO: f64 = 0.7;
 
 /// Growth of the shells far from the contact, as a share of the distance, of quadratic elements. With linear
 /// ones of this growth a ridge and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with
-/// [`LINEAR_PER_QUADRATIC`] times as many shells by 0.1 %. Quadratic ones make elastic bodies stiffer than
-/// those of 0.2 by 0.005 % under an asperity and 0.006 % under a ridge. Those of 0.5 save a twentieth of the
-/// cells; 0.006 and 0.018 % then, which run and companion share: bounds held in 93.5 % in place of 95.9.
+/// [`LINEAR_PER_QUADRATIC`] times as many shells by 0.1 %; quadratic ones of half of it change the force by
+/// 0.01 %.
 const FAR_GROWTH_SHARE: f64 = 0.4;
 
 /// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single
