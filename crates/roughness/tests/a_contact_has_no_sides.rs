@@ -1,5 +1,5 @@
-//! A contact is the same from every side, and its area hangs on the limit of pressure by no more than it says.
-//! By symmetry of the equations; tolerances are those of the search.
+//! A contact is the same from every side, and its area hangs on the limit of pressure by no more than it
+//! says. By symmetry of the equations; tolerances are those of the search.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use asperity_roughness::half_space::{HalfSpace, HalfSpaceError};
