@@ -391,7 +391,7 @@ def _any_scene(scene: Any) -> Any:
     """A scene of any kind, or that of its tables, or the path of a file."""
     if isinstance(scene, Mapping):
         is_rough = "surface" in scene or "closure" in scene
-        return _asperity.RoughScene(**scene) if is_rough else _asperity.Scene(**scene)
+        return _asperity.RoughScene(**scene) if is_rough else _scene(scene)
     return scene if isinstance(scene, _asperity.Scene | _asperity.RoughScene) else os.fspath(scene)
 
 
