@@ -389,10 +389,10 @@ def identify(
 
 def _any_scene(scene: Any) -> Any:
     """A scene of any kind, or that of its tables, or the path of a file."""
-    if isinstance(scene, Mapping):
-        is_rough = "surface" in scene or "closure" in scene
-        return _asperity.RoughScene(**scene) if is_rough else _scene(scene)
-    return scene if isinstance(scene, _asperity.Scene | _asperity.RoughScene) else os.fspath(scene)
+    if not isinstance(scene, Mapping):
+        return scene if isinstance(scene, _asperity.Scene | _asperity.RoughScene) else os.fspath(scene)
+    tables: Any = scene
+    return _asperity.RoughScene(**tables) if "surface" in tables or "closure" in tables else _scene(tables)
 
 
 def study(
