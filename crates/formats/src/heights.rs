@@ -107,7 +107,7 @@ pub(crate) fn refuse_several(
 }
 
 /// Words of what points into the material, and those of a title that may stand beside one.
-const DEPTHS: [&str; 5] = ["depth", "depths", "tiefe", "tiefen", "profondeur"];
+pub(crate) const DEPTHS: [&str; 5] = ["depth", "depths", "tiefe", "tiefen", "profondeur"];
 const OF_A_TITLE: [&str; 22] = [
     "map", "channel", "image", "data", "values", "value", "in", "of", "the", "kanal", "bild", "karte",
     "surface", "z", "measured", "unit", "units", "type", "signal", "display", "quantity", "name",

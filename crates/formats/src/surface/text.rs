@@ -208,8 +208,8 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
 /// First words of a column that counts rows.
 const ROW: [&str; 6] = ["row", "line", "zeile", "ligne", "riga", "fila"];
 
-/// Parts of names of what grows away from a sensor above the surface.
-const OF_DEPTHS: [&str; 6] = ["depth", "tiefe", "profondeur", "distance", "abstand", "range"];
+/// Parts of names of what grows away from a sensor above the surface, as depths do.
+const DISTANCES: [&str; 3] = ["distance", "abstand", "range"];
 
 /// The columns of a header that calls the first two x and y, and the third by a name that z may have.
 ///
@@ -230,7 +230,7 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     }
     let (name, unit) = folded_name(&cells[2]);
     let is_length = unit.is_some_and(|unit| Dimension::Length.scale(&unit).is_some());
-    let is_down = OF_DEPTHS.iter().any(|word| name.contains(word));
+    let is_down = heights::DEPTHS.iter().chain(&DISTANCES).any(|word| name.contains(word));
     let third = Asked { columns: [None, None, Some("3")], ..*named };
     let header = Header::new(&grid.dialect, line, text, &POINT, &third);
     match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down) {

@@ -42,6 +42,10 @@ pub(super) fn is_segment(cell: &str) -> bool {
 /// A line that names a segment and nothing else: `Segment 2`, `Hold`, `[Segment: 3 (Unload)]`; true where it
 /// is one with which no test begins.
 pub(super) fn named_segment(line: &str) -> Option<bool> {
+    // nearly all lines are rows of numbers
+    if !line.contains(char::is_alphabetic) {
+        return None;
+    }
     let plain: String = line.chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
     let words: Vec<String> = plain.split_whitespace().map(folded).collect();
     let numbers: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
