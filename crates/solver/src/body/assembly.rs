@@ -216,13 +216,12 @@ impl Body<'_> {
         if let Some(rubbing) = &mut context.rubbing {
             rubbing.holds = springs.is_some();
         }
-        for (edge, kept) in state.edges.iter().zip(kept) {
+        for ((edge, kept), last) in state.edges.iter().zip(kept).zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
-            let parts = match touching {
-                Touching::Kept => kept,
-                Touching::Found => edge.touching(&context, &x),
-            };
-            response.contact.push(edge.integrate(&context, parts, &x));
+            response.contact.push(match touching {
+                Touching::Found => edge.integrate(&context, edge.touching(&context, &x), &x),
+                Touching::Kept => edge.integrate_widened(&context, kept, last, &x),
+            });
         }
     }
 

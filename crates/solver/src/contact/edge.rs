@@ -9,11 +9,11 @@
 //! apex over a large part of its flank, where a penalty over the undeformed area fades: the apex then pierces
 //! the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
 
-use crate::contact::parts::{NOTHING, Parts, WHOLE};
+use crate::contact::parts::{NOTHING, Parts, WHOLE, ends_of_touch};
 use crate::contact::pieces::Places;
 use crate::contact::roots::parts_above_zero;
 use crate::contact::slip::{EdgeSlip, Rubbing, SLIP_PLACES};
-use crate::contact::tool::Tool;
+use crate::contact::tool::{Penetration, Tool};
 use crate::point::kinematics::Symmetry;
 use asperity_mesh::outline::quadratic_roots;
 
@@ -216,7 +216,23 @@ impl ContactEdge {
 
     /// Integrates pressure over `parts`, wherever it may be negative there (a kept contact set may pull).
     pub fn integrate(&self, context: &ContactContext<'_>, parts: Parts, x: &[[f64; 2]; 3]) -> EdgeContact {
+        self.integrate_widened(context, parts, parts, x)
+    }
+
+    /// The same over `parts` that are wider than the `touching` ones. There nothing presses, and the slope of
+    /// the tool goes linearly from that at one end of touch to that at the other: beyond a corner of its
+    /// outline the tool may be upright, and stiff springs along directions that turn within an edge as no
+    /// displacement of its nodes does would hold these sideways too.
+    pub fn integrate_widened(
+        &self,
+        context: &ContactContext<'_>,
+        parts: Parts,
+        touching: Parts,
+        x: &[[f64; 2]; 3],
+    ) -> EdgeContact {
         let mut out = EdgeContact::empty(parts);
+        let slope = |xi: f64| context.tool.penetration(self.point(x, xi), context.tip).slope;
+        let ends = ends_of_touch(&touching).filter(|_| parts != touching).map(|ends| ends.map(slope));
         let places = self.places(context, x);
         for [start, end] in parts.into_iter().flatten().filter(|[start, end]| end > start) {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));
@@ -230,7 +246,14 @@ impl ContactEdge {
                 let xi = centre + half * abscissa;
                 let n = self.shape(xi);
                 let here = self.point(x, xi);
-                let d = context.tool.penetration(here, context.tip);
+                let d = match ends {
+                    None => context.tool.penetration(here, context.tip),
+                    Some([left, right]) => Penetration {
+                        depth: 0.0,
+                        slope: [0, 1].map(|i| 0.5 * ((1.0 - xi) * left[i] + (1.0 + xi) * right[i])),
+                        curvature: [0.0; 3],
+                    },
+                };
                 let p = context.penalty * d.depth;
                 let w = half * weight * self.measure(xi);
                 out.energy += w * p * p / (2.0 * context.penalty);

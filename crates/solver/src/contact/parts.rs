@@ -20,6 +20,12 @@ pub fn whole_edges_around(parts: &[Parts]) -> ([Vec<Parts>; 2], f64) {
     ([parts.iter().map(wholly).collect(), parts.iter().map(partly).collect()], mean)
 }
 
+/// The first and the last place of an edge that touch; `None` where nothing does.
+pub fn ends_of_touch(parts: &Parts) -> Option<[f64; 2]> {
+    let places = || parts.iter().flatten().flatten().copied();
+    Some([places().reduce(f64::min)?, places().reduce(f64::max)?])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -36,5 +42,11 @@ mod tests {
             whole_edges_around(&[WHOLE, NOTHING]),
             ([vec![WHOLE, NOTHING], vec![WHOLE, NOTHING]], 0.0)
         );
+    }
+
+    #[test]
+    fn two_parts_touch_from_the_first_to_the_last() {
+        assert_eq!(ends_of_touch(&[Some([0.4, 0.9]), Some([-0.8, -0.2])]), Some([-0.8, 0.9]));
+        assert_eq!(ends_of_touch(&NOTHING), None);
     }
 }

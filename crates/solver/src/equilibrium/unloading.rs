@@ -8,7 +8,10 @@
 //! * displacements of a mesh do not follow the singular rim: a contact that ends at the end of an edge of
 //!   length l is as stiff as one that is κl wider ([`rim_shift`]). A rigid spring on part of an edge holds
 //!   the shape of all of it, so the stiffness is taken linearly in the end of contact from that of the edges
-//!   which touch wholly to that of all which touch, and κ of the last edge before its end.
+//!   which touch wholly to that of all which touch, and κ of the last edge before its end. On the edges that
+//!   are widened so, the slope of the tool is linear ([`integrate_widened`]).
+//!
+//! [`integrate_widened`]: crate::contact::edge::ContactEdge::integrate_widened
 
 use crate::body::failure::Failure;
 use crate::contact::parts::{NOTHING, Parts, whole_edges_around};
