@@ -3,7 +3,8 @@
 //! A round is a run with its companion. What it states is compared with what the accuracy promises; where it
 //! is more, the next round has finer numbers, as many times as the order asks for by which the stated errors
 //! fall: 3/2 of the force and 1 of the area at first (`error_estimate`), and then the order that two rounds
-//! have shown. Where all numbers are just twice as fine, the round before is the companion of the next one.
+//! have shown. Where the area alone is stated with more, the steps stay: it does not hang on them. Where all
+//! numbers are just twice as fine, the round before is the companion of the next one.
 //! Work is counted in operations, never in seconds, so that the bits are those of every machine.
 
 use crate::record::outcome::{Event, Outcome, Watcher};
@@ -24,8 +25,9 @@ const EXPECTED_ORDERS: [f64; 2] = [1.5, 1.0];
 /// Range of an order that two rounds show: chance may make it anything.
 const ORDERS: [f64; 2] = [0.5, 2.0];
 
-/// Power of the fineness with which the work grows: 2 of the elements, 1 of the steps.
-const WORK_EXPONENT: f64 = 3.0;
+/// Power of the fineness with which the work grows: 2 of the elements, and 1 of the steps where they are
+/// finer too.
+const WORK_EXPONENT: [f64; 2] = [2.0, 3.0];
 
 /// Work of a companion over that of its run.
 const COMPANION_WORK: f64 = 0.2;
@@ -70,18 +72,59 @@ fn misses(scene: &Scene, outcome: &Outcome) -> [f64; 2] {
 /// Work of a run whose stated errors are just the promised ones, over that of one which states `over` times
 /// as much of force and area.
 pub fn work_to_keep(over: [f64; 2]) -> f64 {
-    wanted(over, EXPECTED_ORDERS).powf(WORK_EXPONENT)
+    Finer::wanted(over, EXPECTED_ORDERS).work()
 }
 
 fn largest(misses: [f64; 2]) -> f64 {
     misses[0].max(misses[1])
 }
 
-/// Factor by which the next round is to be finer, with the orders by which errors fall.
-fn wanted(misses: [f64; 2], orders: [f64; 2]) -> f64 {
-    let finer = |i: usize| (MARGIN * misses[i]).powf(orders[i].recip());
-    let factor = finer(0).max(finer(1));
-    if factor.is_finite() { factor } else { FACTORS[1] }
+/// The numbers of a round over those of the one before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Finer {
+    /// Factor of elements, penalty and substrate.
+    factor: f64,
+    /// True where the steps are as many times as short.
+    steps: bool,
+}
+
+impl Finer {
+    /// The numbers that the next round wants after these `misses`, with the orders by which errors fall.
+    fn wanted(misses: [f64; 2], orders: [f64; 2]) -> Finer {
+        let finer = |i: usize| (MARGIN * misses[i]).powf(orders[i].recip());
+        let factor = finer(0).max(finer(1));
+        // an infinite miss of the area leaves the force unknown too
+        let steps = misses[0] > 1.0 || !factor.is_finite();
+        Finer { factor: if factor.is_finite() { factor } else { FACTORS[1] }, steps }
+    }
+
+    /// Work over that of the round before, without companions.
+    fn work(self) -> f64 {
+        self.factor.powf(self.exponent())
+    }
+
+    fn exponent(self) -> f64 {
+        WORK_EXPONENT[usize::from(self.steps)]
+    }
+
+    /// True where the round before is its companion: all numbers are twice as good.
+    fn is_double(self) -> bool {
+        self.factor == FACTORS[1] && self.steps
+    }
+
+    /// The numbers that come of it after rounds that took `spent` times the work of the first, the last of
+    /// them `before` times that; `None` where the work that is left brings nothing.
+    fn affordable(self, before: f64, spent: f64) -> Option<Finer> {
+        let factor = if self.factor > NEARLY_TWICE { FACTORS[1] } else { self.factor.max(FACTORS[0]) };
+        let wanted = Finer { factor, ..self };
+        let companion = if wanted.is_double() { 0.0 } else { COMPANION_WORK };
+        let left = MOST_WORK_RATIO - spent;
+        if before * wanted.work() * (1.0 + companion) / (1.0 + COMPANION_WORK) <= left {
+            return Some(wanted);
+        }
+        let factor = (left / before).powf(self.exponent().recip());
+        (factor >= FACTORS[0]).then_some(Finer { factor: factor.min(NEARLY_TWICE), ..self })
+    }
 }
 
 /// The orders that two rounds show, the second `factor` times as fine.
@@ -111,16 +154,18 @@ impl Run<'_> {
         let run = self.begin()?;
         let first = run.round(Discretisation::new(scene), None, observer)?;
         let (mut best, mut before, mut work, mut rounds) = (first.outcome, first.main, first.work, 1);
-        let (mut miss, mut orders, mut fineness) = (misses(scene, &best), EXPECTED_ORDERS, 1.0);
+        // the work of the last round, as it was expected
+        let (mut miss, mut orders, mut expected) = (misses(scene, &best), EXPECTED_ORDERS, 1.0);
         let (mut least, mut iterations) = (largest(miss), best.summary.newton_iterations);
         let refines = scene.may_refine() && best.stopped.is_none();
         while refines && least > 1.0 && rounds < MOST_ROUNDS {
-            let Some(factor) = affordable(wanted(miss, orders), fineness, work / first.work) else { break };
+            let wanted = Finer::wanted(miss, orders);
+            let Some(finer) = wanted.affordable(expected, work / first.work) else { break };
             if observer(&Event::Round(rounds + 1)).is_break() {
                 break;
             }
-            let numbers = before.numbers.finer(factor, &scene.numerics);
-            let coarser = (factor == FACTORS[1]).then_some(&before);
+            let numbers = before.numbers.finer(finer.factor, finer.steps, &scene.numerics);
+            let coarser = finer.is_double().then_some(&before);
             let mut interrupted = false;
             let told = &mut |event: &Event<'_>| {
                 let told = observer(event);
@@ -138,8 +183,8 @@ impl Run<'_> {
                 break;
             }
             let now = misses(scene, &found.outcome);
-            orders = observed(miss, now, factor);
-            (fineness, miss, before) = (fineness * factor, now, found.main);
+            orders = observed(miss, now, finer.factor);
+            (expected, miss, before) = (expected * finer.work(), now, found.main);
             if largest(now) < least {
                 (least, best) = (largest(now), Outcome { round: rounds, ..found.outcome });
             }
@@ -149,22 +194,6 @@ impl Run<'_> {
         best.summary.promise_kept = best.stopped.is_none().then_some(least <= 1.0);
         Ok((best, work / first.work))
     }
-}
-
-/// The factor of fineness that is made of the `wanted` one after rounds that took `spent` times the work of
-/// the first, the last of them `fineness` times as fine; `None` where what may be spent brings nothing.
-fn affordable(wanted: f64, fineness: f64, spent: f64) -> Option<f64> {
-    let wanted = if wanted > NEARLY_TWICE { FACTORS[1] } else { wanted.max(FACTORS[0]) };
-    let cost = |factor: f64| {
-        let companion = if factor == FACTORS[1] { 0.0 } else { COMPANION_WORK };
-        (fineness * factor).powf(WORK_EXPONENT) * (1.0 + companion) / (1.0 + COMPANION_WORK)
-    };
-    let left = MOST_WORK_RATIO - spent;
-    if cost(wanted) <= left {
-        return Some(wanted);
-    }
-    let factor = left.powf(WORK_EXPONENT.recip()) / fineness;
-    (factor >= FACTORS[0]).then_some(factor.min(NEARLY_TWICE))
 }
 
 #[cfg(test)]
@@ -179,21 +208,28 @@ mod tests {
     use asperity_mesh::Mesh;
     use std::ops::ControlFlow;
 
+    const TWICE: Finer = Finer { factor: 2.0, steps: true };
+
     #[test]
     fn a_miss_of_the_area_by_a_third_asks_for_a_third_more_and_double_goes_by_the_round_before() {
-        let factor = affordable(wanted([0.5, 1.3], EXPECTED_ORDERS), 1.0, 1.0).unwrap();
-        assert!((factor - 1.3 * MARGIN).abs() < 1e-12);
-        assert_eq!(affordable(wanted([4.0, 1.0], EXPECTED_ORDERS), 1.0, 1.0), Some(2.0));
-        assert_eq!(affordable(wanted([f64::INFINITY, f64::INFINITY], EXPECTED_ORDERS), 1.0, 1.0), Some(2.0));
+        let next = |misses| Finer::wanted(misses, EXPECTED_ORDERS).affordable(1.0, 1.0).unwrap();
+        let finer = next([0.5, 1.3]);
+        assert!((finer.factor - 1.3 * MARGIN).abs() < 1e-12 && !finer.steps && !finer.is_double());
+        assert_eq!(next([4.0, 1.0]), TWICE);
+        assert_eq!(next([f64::INFINITY; 2]), TWICE);
+        assert_eq!(next([0.9, 4.0]), Finer { steps: false, ..TWICE });
     }
 
     #[test]
     fn work_is_bounded() {
-        assert_eq!(affordable(2.0, 1.0, 11.5), None);
+        assert_eq!(TWICE.affordable(1.0, 11.5), None);
         // a second doubling would cost 64 times the first round
-        assert_eq!(affordable(2.0, 2.0, 8.0), None);
-        let factor = affordable(2.0, 1.0, 7.0).unwrap();
-        assert!(factor > 1.5 && factor <= NEARLY_TWICE, "{factor}");
+        assert_eq!(TWICE.affordable(8.0, 8.0), None);
+        for steps in [true, false] {
+            let finer = Finer { steps, ..TWICE };
+            let cut = finer.affordable(1.0, MOST_WORK_RATIO - 0.6 * finer.work()).unwrap();
+            assert!(cut.factor > 1.5 && cut.factor <= NEARLY_TWICE && cut.steps == steps, "{cut:?}");
+        }
     }
 
     #[test]

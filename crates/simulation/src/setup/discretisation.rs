@@ -47,7 +47,7 @@ struct Choice {
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [10.0, 29.0, 6.0, 1e-3, 40.0, 0.008]),
     (Accuracy::Standard, [20.0, 58.0, 10.0, 1e-3, 60.0, 0.0042]),
-    (Accuracy::Reference, [36.0, 200.0, 24.0, 1e-4, 200.0, 0.002]),
+    (Accuracy::Reference, [46.0, 170.0, 12.0, 1e-3, 200.0, 0.002]),
 ];
 
 impl Choice {
@@ -130,14 +130,14 @@ impl Discretisation {
         }
     }
 
-    /// Numbers `factor` times as good: elements, steps, penalty, substrate. Steps back and the tolerance
-    /// stay.
+    /// Numbers `factor` times as good: elements, penalty, substrate, and `steps` where they are to be. Steps
+    /// back and the tolerance stay, and what is `given`.
     #[must_use]
-    pub fn finer(&self, factor: f64, given: &Numerics) -> Discretisation {
+    pub fn finer(&self, factor: f64, steps: bool, given: &Numerics) -> Discretisation {
         let more = |count: usize| (factor * count as f64).round() as usize;
         Discretisation {
             elements_in_contact: more(self.elements_in_contact),
-            steps: if given.steps.is_some() { self.steps } else { more(self.steps) },
+            steps: if steps && given.steps.is_none() { more(self.steps) } else { self.steps },
             penetration: given.penetration.unwrap_or(self.penetration / factor),
             domain: given.domain.unwrap_or(factor * self.domain),
             ..*self
@@ -361,6 +361,6 @@ mod tests {
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }
-        assert_eq!((before.elements, before.steps, before.domain), (36, 200, 200.0));
+        assert_eq!((before.elements, before.steps, before.domain), (46, 170, 200.0));
     }
 }
