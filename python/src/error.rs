@@ -24,10 +24,17 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("UnfinishedError", module.py().get_type::<UnfinishedError>())
 }
 
+/// Names of texts that the library writes from the tables of a call.
+const OF_TABLES: [&str; 3] = ["scene", "fit", "sweep"];
+
 /// An error of the library as an exception.
 pub fn raised(error: impl Into<Error>) -> PyErr {
     match error.into() {
-        Error::Input(error) => InputError::new_err(error.full()),
+        Error::Input(error) => {
+            let of_tables =
+                error.place.as_ref().is_some_and(|place| OF_TABLES.contains(&place.name.as_str()));
+            InputError::new_err(if of_tables { error.in_tables().full() } else { error.full() })
+        }
         Error::Unfinished(reason) => UnfinishedError::new_err(reason),
     }
 }

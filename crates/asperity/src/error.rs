@@ -116,6 +116,25 @@ impl InputError {
         text
     }
 
+    /// The same of a text that was written from tables in code: the path of the key stands for a line that
+    /// nobody has seen.
+    #[must_use]
+    pub fn in_tables(mut self) -> Self {
+        let Some(place) = self.place.take() else { return self };
+        let before = &place.text[..place.span.start.min(place.text.len())];
+        let line = place.text.lines().nth(before.matches('\n').count()).unwrap_or_default().trim();
+        let is_head = |text: &&str| text.starts_with('[') && text.ends_with(']');
+        let head = before.lines().map(str::trim).rfind(is_head).unwrap_or_default();
+        let name = head.trim_matches(['[', ']']);
+        let path = match before.lines().filter(|text| text.trim() == head).count() {
+            _ if head.is_empty() || is_head(&line) => String::new(),
+            count if head.starts_with("[[") => format!("{name}[{}].", count - 1),
+            _ => format!("{name}."),
+        };
+        self.message += &format!("\n{path}{line}");
+        self
+    }
+
     /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first
     /// one.
     #[must_use]
@@ -157,5 +176,14 @@ mod tests {
             format!("{:?}", Error::from(error)),
             "bad depht\nscene, line 2: depht = 2\nhelp: did you mean depth?"
         );
+    }
+
+    #[test]
+    fn an_error_in_tables_names_the_key_by_its_path() {
+        let text = "a = 1\n[[cone]]\nb = 1\n[[cone]]\nb = 2\n[tool]\nc = 3\n";
+        for (at, path) in [(0, "a = 1"), (30, "cone[1].b = 2"), (43, "tool.c = 3"), (21, "[[cone]]")] {
+            let error = InputError::new("bad").pointing_at("scene", text, at..at + 1).in_tables();
+            assert_eq!(error.full(), format!("bad\n{path}"));
+        }
     }
 }

@@ -7,6 +7,7 @@
 
 use asperity_material::HardeningCurve;
 use asperity_mesh::ElementKind;
+use asperity_numerics::newton::solve;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::single_increment::{
     TIGHT_SETTINGS, hollomon, increment, model, reaction, stresses,
@@ -45,4 +46,30 @@ fn tension_follows_eq_1_from_strain_0_002_to_1() {
             assert!((force / nominal_stress(exact, strain) - 1.0).abs() < 1e-9);
         }
     }
+}
+
+/// The plastic work of an increment under way is that of the stress on the strain, ∫σ dε less the elastic
+/// energy σ²/2E, over the volume of the bar.
+#[test]
+fn the_plastic_work_of_an_increment_is_what_tension_does_beyond_its_elastic_energy() {
+    let metal = hollomon(300.0 / 210e3, 0.3);
+    let Some(HardeningCurve::Power(hardening)) = metal.hardening else { panic!("a power law") };
+    let mesh = mapped(ElementKind::Quad8, [1, 1], |x| x);
+    let mut held = vec![[false; 2]; mesh.nodes.len()];
+    let ends = [&mesh.sides.surface, &mesh.sides.base].map(|side| nodes_of(&mesh, side));
+    ends.iter().flatten().for_each(|&n| held[n][1] = true);
+    nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
+    let mut model = model(&mesh, Symmetry::Axisymmetric, metal, &held, None).unwrap();
+    let x = model.state().position.clone();
+    let strain = 0.05_f64;
+    model.begin(f64::INFINITY, 0.0, |node| {
+        [x[node][0] * (-0.5 * strain).exp_m1(), x[node][1] * strain.exp_m1()]
+    });
+    solve(&mut model, &TIGHT_SETTINGS).map_err(|(failure, _)| failure).unwrap();
+    let steps = 20_000;
+    let at = |i: f64| hollomon_stress(&hardening, strain * i / f64::from(steps));
+    let whole: f64 = (0..steps).map(|i| at(f64::from(i) + 0.5) * strain / f64::from(steps)).sum();
+    let plastic = std::f64::consts::PI * (whole - 0.5 * at(f64::from(steps)).powi(2));
+    // the midpoint rule at the kink of the law: a step of the elastic strain's share
+    assert!((model.plastic_work() / plastic - 1.0).abs() < 1e-6, "{} {plastic}", model.plastic_work());
 }

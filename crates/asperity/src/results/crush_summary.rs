@@ -313,21 +313,23 @@ impl Summary {
     /// The way out where the stated errors are these times what is promised.
     fn way_out(&self, over: [f64; 2]) -> String {
         let work = work_to_keep(over);
+        // beyond that the order of the errors foretells nothing
+        let work = if work > 1000.0 { "more than 1000".into() } else { format!("about {work:.0}") };
         match self.rounds {
             _ if self.scene.mesh.is_some() => "the mesh is given, and stays; give a finer one".into(),
             1 if self.scene.numerics.elements_in_contact.is_some() => format!(
                 "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact the run is refined by itself, at \
-                 about {work:.0} times the work"
+                 {work} times the work"
             ),
             1 if self.scene.numerics.refine == Some(false) => format!(
-                "it was to run once; without --no-refine, or numerics.refine = false, the run is refined by itself, at about {work:.0} \
-                 times the work"
+                "it was to run once; without --no-refine, or numerics.refine = false, the run is refined by itself, at {work} times the \
+                 work"
             ),
             1 => format!(
-                "no finer run came to its end; give a larger numerics.elements_in_contact, at about {work:.0} times the work"
+                "no finer run came to its end; give a larger numerics.elements_in_contact, at {work} times the work"
             ),
             rounds => format!(
-                "{rounds} rounds of finer numbers did not bring it below; that would take about {work:.0} times the work of the last one, \
+                "{rounds} rounds of finer numbers did not bring it below; that would take {work} times the work of the last one, \
                  with a larger numerics.elements_in_contact"
             ),
         }

@@ -213,6 +213,12 @@ impl Study {
         Ok(())
     }
 
+    /// Runs that reached their end with larger errors than their accuracy promises.
+    fn promises_missed(&self) -> usize {
+        let missed = |run: &&Run| run.ok() && run.results.get("promise_kept") == Some(&false.into());
+        self.runs.iter().filter(missed).count()
+    }
+
     /// The result for a person.
     pub fn text(&self) -> String {
         let failed: Vec<&Run> = self.runs.iter().filter(|run| !run.ok()).collect();
@@ -227,6 +233,18 @@ impl Study {
         for run in failed.iter().take(5) {
             let values = self.definition.overrides(&run.values).join(", ");
             let _ = write!(text, "\nfailed    {values}: {}", run.status);
+        }
+        match self.promises_missed() {
+            0 => {}
+            1 => text.push_str(
+                "\nmissed    1 run states more error than its accuracy promises: promise_kept is false",
+            ),
+            missed => {
+                let _ = write!(
+                    text,
+                    "\nmissed    {missed} runs state more error than their accuracy promises: promise_kept is false"
+                );
+            }
         }
         if let Some(column) = self.shown() {
             let numbers = || self.runs.iter().filter(|run| run.ok()).filter_map(|run| run.number(column));
@@ -246,7 +264,8 @@ impl Study {
     pub fn json(&self) -> Result<String, Error> {
         let failed = self.runs.iter().filter(|run| !run.ok()).count();
         crate::results::output::json(&serde_json::json!({
-            "keys": self.keys, "runs": self.runs.len(), "failed": failed, "wall_s": self.wall_s,
+            "keys": self.keys, "runs": self.runs.len(), "failed": failed,
+            "promises_missed": self.promises_missed(), "wall_s": self.wall_s,
         }))
     }
 }

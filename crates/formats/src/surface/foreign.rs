@@ -7,6 +7,8 @@ pub(super) const LOOKED_AT: u64 = 1024;
 
 const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p or text";
 
+const MESH: &str = "save its points as text x y z on a regular grid, or its heights as .x3p or .sur";
+
 const GREY: &str = "a picture of grey levels (.pgm, .pfm)";
 
 /// Beginning, name, and what to do.
@@ -36,11 +38,7 @@ const KINDS: [(&[u8], &str, &str); 24] = [
         "export the heights as .gwy, .gsf or text (Gwyddion opens it)",
     ),
     (b"WSxM file copyright", "a WSxM image (.stp, .top)", "export the heights as text with a header in WSxM"),
-    (
-        b"ply",
-        "a mesh of points (.ply)",
-        "save its points as text x y z on a regular grid, or its heights as .x3p or .sur",
-    ),
+    (b"ply", "a mesh of points (.ply)", MESH),
     (
         b"Zygo ASCII Data File",
         "a Zygo ASCII file of raw phase",
@@ -72,6 +70,11 @@ pub(super) fn named(start: &[u8]) -> Option<ReadError> {
     let is_text = start.split(|b| *b == b'\n').nth(1).is_some_and(|line| line.starts_with(b"WSxM ASCII"));
     let (_, found, export) = KINDS.iter().find(|(magic, ..)| start.starts_with(magic) && !is_text)?;
     Some(ReadError::Foreign { found: (*found).into(), export })
+}
+
+/// The error that names a mesh of triangles by its extension.
+pub(super) fn mesh(extension: &str) -> ReadError {
+    ReadError::Foreign { found: format!("a mesh of triangles (.{extension})"), export: MESH }
 }
 
 /// The kind of an archive that is not read, by the names in it.

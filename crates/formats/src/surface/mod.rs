@@ -78,6 +78,7 @@ fn read_as_written(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         | "bcrf" | "nid" => Err(ReadError::Unknown {
             found: format!("the name says .{extension}, but the file does not begin like one"),
         }),
+        "stl" | "obj" | "off" | "3mf" => Err(foreign::mesh(&extension)),
         "csv" | "txt" | "asc" | "dat" | "xyz" | "grd" | "" => text::read(path, request),
         other => text::read(path, request).map_err(|error| match error {
             ReadError::Text(error) => ReadError::Unknown {

@@ -81,7 +81,17 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         (grid.columns, grid.parts) = (columns, None);
     }
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
-    let turned = request.columns[2].is_some_and(|name| name.starts_with(MINUS));
+    let minus = |column: usize| request.columns[column].filter(|name| name.starts_with(MINUS));
+    if let Some((key, name)) =
+        ["x", "y"].into_iter().zip([minus(0), minus(1)]).find_map(|(k, n)| Some((k, n?)))
+    {
+        let name = name.trim_start_matches(MINUS);
+        let problem = format!(
+            "columns.{key}: a minus turns heights, not places: leave it out, {key} = \"{name}\"; a mirrored map has the same contact"
+        );
+        return Err(TextError::whole(problem).into());
+    }
+    let turned = minus(2).is_some();
     let columns = request.columns.map(|name| name.map(|name| name.trim_start_matches(MINUS)));
     let named = Asked { columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
     if !turned && !request.override_file {
@@ -184,7 +194,8 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
         return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
     }
     let mut units = None;
-    let lines = grid.before.iter().rev().filter(|(_, line)| !line.is_empty()).take(2);
+    // names, perhaps a line that describes them, units
+    let lines = grid.before.iter().rev().filter(|(_, line)| !line.is_empty()).take(3);
     for &(line, text) in lines {
         let text = uncommented(text);
         if let Some(header) = Header::new(&grid.dialect, line, text, &POINT, named) {
@@ -196,7 +207,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
             }
             return Ok(Some(columns));
         }
-        units = Some(text);
+        units = units.or(Some(text));
     }
     if named.columns.iter().all(Option::is_none) {
         return Ok(None);
@@ -280,6 +291,15 @@ fn points(
         .chunks_exact(grid.columns)
         .map(|row| [row[place(0)], row[place(1)], row[place(2)]])
         .collect();
+    let level = points.len() > 1 && points.windows(2).all(|pair| pair[0][2] == pair[1][2]);
+    if level && grid.columns > 3 && request.columns[2].is_none() {
+        let problem = format!(
+            "the height, column {}, is {} at every point: say which column holds it, like columns = {{ x = \"1\", y = \"2\", z = \"4\" }}",
+            place(2) + 1,
+            points[0][2]
+        );
+        return Err(TextError::new(grid.lines[0], problem).into());
+    }
     let scales = [0, 1].map(|k| picks[k].scale);
     drop(grid.values);
     notes.extend(said.take_missing(points.iter_mut().map(|p| &mut p[2])));
@@ -349,8 +369,11 @@ fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
         && rows >= ROWS_OF_NO_MAP * columns
         && (columns <= 3 || !is_told)
     {
+        // a column that numbers the points is no place
+        let is_numbered = columns > 3 && first.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
+        let [x, y, z] = if is_numbered { [2, 3, 4] } else { [1, 2, 3] };
         format!(
-            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"1\", y = \"2\", z = \"3\" }}{}",
+            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"{x}\", y = \"{y}\", z = \"{z}\" }}{}",
             if columns > 3 { ", or set override = true if it is a map" } else { "" }
         )
     } else {

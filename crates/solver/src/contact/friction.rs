@@ -233,6 +233,50 @@ mod tests {
         }
     }
 
+    /// An edge that is pressed into a flank and rubs along it: whichever way it does, the tool feels what the
+    /// nodes feel.
+    #[test]
+    fn the_load_is_the_force_of_the_nodes() {
+        let tool = Tool::Cone { tan_slope: 0.5, tip_radius: 0.0 };
+        let place = |node: u32| [1.0 + f64::from(node), 0.51 + 0.5 * f64::from(node)];
+        let edge = ContactEdge::new([0, 1], None, place, Symmetry::PlaneStrain);
+        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
+        let load = |friction: Friction, slide: f64| {
+            let rubbing = Some(Rubbing { friction, tip_before: 0.0, holds: false });
+            let context =
+                ContactContext { tool: &tool, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+            let x = edge.reference.map(|[r, z]| [r + slide, z + 0.5 * slide]);
+            let contact = edge.integrate(&context, edge.touching(&context, &x), &x);
+            let nodes: f64 = contact.force.iter().map(|force| force[1]).sum();
+            assert!((contact.load / nodes - 1.0).abs() < 1e-12, "{slide}: {} {nodes}", contact.load);
+            contact.load
+        };
+        let [up, down] = [0.002, -0.002].map(|slide| load(Friction::Sticking, slide));
+        assert!(up > 1.1 * down, "{up} {down}");
+    }
+
+    /// Traction 2 times 0.002 over a width of 1, which falls to nothing where the surface parts: half of it is
+    /// lost over the elastic slip and the way, none where the way takes the slip back; all energy where the
+    /// tool is gone.
+    #[test]
+    fn what_parts_loses_its_traction_along_the_way() {
+        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
+        let (mut edge, ..) = rubbed(Friction::Sticking, 0.0);
+        edge.slip = [0.002; SLIP_PLACES];
+        let lost = |slide: f64, tip: f64| {
+            let rubbing = Some(Rubbing { friction: Friction::Sticking, tip_before: 0.0, holds: false });
+            let context =
+                ContactContext { tool: &Tool::Plane, tip, penalty, spring: penalty, symmetry, rubbing };
+            let (slip, lost) = edge.slip_after(&context, &edge.reference.map(|[r, z]| [r + slide, z - 0.02]));
+            assert_eq!(slip, [0.0; SLIP_PLACES]);
+            lost
+        };
+        for (slide, work) in [(0.0, 4e-6), (0.001, 6e-6), (-0.001, 2e-6), (-0.003, 0.0)] {
+            assert!((lost(slide, 0.0) - work).abs() < 1e-18, "{slide}: {}", lost(slide, 0.0));
+        }
+        assert!((lost(0.001, f64::INFINITY) - 4e-6).abs() < 1e-18);
+    }
+
     /// A surface whose nodes move along it keeps its elastic slip where the metal is, and none beyond.
     #[test]
     fn slip_is_carried_over_where_it_was() {

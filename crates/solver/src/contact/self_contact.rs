@@ -372,6 +372,30 @@ mod tests {
     }
 
     #[test]
+    fn faces_press_each_other_whichever_way_they_stand() {
+        let (edges, position) = two_faces();
+        let found = |angle: f64| {
+            let (sine, cosine) = angle.to_radians().sin_cos();
+            let turned: Vec<_> =
+                position.iter().map(|[r, z]| [5.0 + cosine * r - sine * z, sine * r + cosine * z]).collect();
+            let edges: Vec<_> = edges
+                .iter()
+                .map(|edge| {
+                    let [first, last, middle] = edge.nodes;
+                    let place = |n: u32| turned[n as usize];
+                    ContactEdge::new([first, last], Some(middle), place, Symmetry::PlaneStrain)
+                })
+                .collect();
+            let facing = Facing::new(&edges, &turned, &[[0.1; 2]; 6], &Facing::default());
+            energy(&facing, &edges, &turned)
+        };
+        let level = found(0.0);
+        for angle in [30.0, 45.0, 90.0, 135.0, 220.0] {
+            assert!(level > 0.0 && (found(angle) / level - 1.0).abs() < 1e-9, "{angle}: {level}");
+        }
+    }
+
+    #[test]
     fn force_and_tangent_are_derivatives_of_the_energy() {
         let (edges, position) = two_faces();
         let facing = Facing::new(&edges, &position, &[[0.1; 2]; 6], &Facing::default());

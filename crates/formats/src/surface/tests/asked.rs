@@ -72,6 +72,13 @@ fn points(names: &str, heights: impl Fn(usize) -> String) -> String {
 }
 
 #[test]
+fn a_line_between_names_and_units_describes_the_columns() {
+    let map = found(&points("X\tY\tHeight\nstage\tstage\tfiltered\n[mm]\t[mm]\t[um]", |i| i.to_string()));
+    let map = map.unwrap();
+    assert_eq!((map.height_unit, map.heights.len()), (Some(1e-6), 6));
+}
+
+#[test]
 fn two_columns_of_heights_are_asked_about() {
     for (third, fourth) in [("Z nominal", "Z measured"), ("Height", "Height filtered"), ("Z std", "Z mean")] {
         let names = format!("X [um]\tY [um]\t{third} [um]\t{fourth} [um]");
@@ -80,6 +87,13 @@ fn two_columns_of_heights_are_asked_about() {
     }
     let map = found(&points("X [um]\tY [um]\tZ [um]\tZ error [um]", |i| format!("{i}\t0.1"))).unwrap();
     assert_eq!(map.heights, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+}
+
+/// The plane of the design, beside which the measured heights stand as deviations.
+#[test]
+fn heights_that_are_the_same_everywhere_are_asked_about() {
+    let fault = found(&points("X [um]\tY [um]\tZ [um]\tDev [um]", |i| format!("5\t0.{i}"))).unwrap_err();
+    assert!(fault.contains("column 3, is 5 at every point"), "{fault}");
 }
 
 /// A minus before the name of a column of depths was passed over.
@@ -99,6 +113,9 @@ fn depths_are_refused_or_turned() {
     let columns = [Some("X"), Some("Y"), Some("-Depth")];
     let map = read(&path, &Request { columns, ..Request::default() }).unwrap();
     assert_eq!(map.heights, [0.0, -1.0, -2.0, -3.0, -4.0, -5.0]);
+    let columns = [Some("X"), Some("-Y"), Some("-Depth")];
+    let fault = read(&path, &Request { columns, ..Request::default() }).unwrap_err().to_string();
+    assert!(fault.contains("columns.y") && fault.contains("leave it out"), "{fault}");
 }
 
 #[test]
