@@ -140,3 +140,15 @@ fn the_bound_of_the_area_under_a_punch_holds_an_edge() {
     let found = Run::new(&scene).run(&mut |_| ControlFlow::Continue(())).unwrap();
     assert!(found.summary.errors.contact_area >= 2.0 / 12.0, "{}", found.summary.errors.contact_area);
 }
+
+/// Yielding and friction both take work.
+#[test]
+fn what_is_dissipated_is_what_yielding_and_friction_take() {
+    let mut row = *last_loaded(&cone().rows).unwrap();
+    (row.external_work, row.plastic_work, row.friction_work) = (2.0, 0.6, Some(0.4));
+    assert_eq!(dissipated(&row), 0.5);
+    row.friction_work = None;
+    assert_eq!(dissipated(&row), 0.3);
+    row.external_work = 0.0;
+    assert_eq!(dissipated(&row), 1.0);
+}

@@ -233,6 +233,35 @@ mod tests {
         }
     }
 
+    /// A point that was 0.01 above the metal and is 0.03 within it has rubbed over three quarters of its way.
+    #[test]
+    fn what_comes_to_touch_rubs_from_there_on() {
+        let place = |node: u32| [f64::from(node), -0.01];
+        let edge = ContactEdge::new([0, 1], None, place, Symmetry::PlaneStrain);
+        let rubbing = Some(Rubbing { friction: Friction::Sticking, tip_before: 0.0, holds: false });
+        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
+        let context =
+            ContactContext { tool: &Tool::Plane, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+        let (slip, _) = edge.slip_after(&context, &edge.reference.map(|[r, z]| [r + 0.004, z + 0.04]));
+        assert!(slip.iter().all(|slip| (slip - 0.003).abs() < 1e-15), "{slip:?}");
+    }
+
+    /// A traction that grows from 0 to 2 times 0.004 over a width of 1: a third of its force at one node, two
+    /// thirds at the other.
+    #[test]
+    fn nodes_take_the_traction_where_it_is() {
+        let (mut edge, ..) = rubbed(Friction::Sticking, 0.0);
+        edge.slip = std::array::from_fn(|place| 0.004 * place as f64 / (SLIP_PLACES - 1) as f64);
+        let rubbing = Some(Rubbing { friction: Friction::Sticking, tip_before: 0.0, holds: false });
+        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
+        let context =
+            ContactContext { tool: &Tool::Plane, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+        let force = edge.integrate(&context, edge.touching(&context, &edge.reference), &edge.reference).force;
+        for (node, share) in [(0, 1.0 / 3.0), (1, 2.0 / 3.0)] {
+            assert!((force[node][0] - 0.004 * share).abs() < 1e-15, "{force:?}");
+        }
+    }
+
     /// An edge that is pressed into a flank and rubs along it: whichever way it does, the tool feels what the
     /// nodes feel.
     #[test]

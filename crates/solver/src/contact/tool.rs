@@ -178,7 +178,8 @@ mod tests {
         ];
         let d = 1e-5;
         for tool in tools {
-            for x in [[0.1, 0.2], [0.6, 0.1], [1.5, 0.4], [2.0, -0.3], [-1.1, 0.3]] {
+            // the last one below the kinks
+            for x in [[0.1, 0.2], [0.6, 0.1], [1.5, 0.4], [2.0, -0.3], [-1.1, 0.3], [-1.285, -0.25]] {
                 let at = |r: f64, z: f64| tool.penetration([r, z], -0.1);
                 let here = at(x[0], x[1]);
                 let (raised, other) = (tool.penetration([x[0], x[1] + 2.7], 2.6), at(-x[0], x[1]));

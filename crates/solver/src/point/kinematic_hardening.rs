@@ -237,4 +237,11 @@ mod tests {
             assert!((size / (share * rise) - 1.0).abs() < 1e-12, "{size} {rise}");
         }
     }
+
+    /// Shear pulls along one diagonal and pushes along the other.
+    #[test]
+    fn the_tensile_part_of_shear_is_that_along_its_diagonal() {
+        assert_eq!(tensile_part(&[0.0, 0.0, 0.0, 2.0]), [1.0, 1.0, 0.0, 1.0]);
+        assert_eq!(tensile_part(&[3.0, -1.0, -2.0, 0.0]), [3.0, 0.0, 0.0, 0.0]);
+    }
 }
