@@ -247,7 +247,7 @@ impl Described {
 
     /// A whole number of columns or rows: `X pixels = 128`, `Width [px]: 128`, `X size,128,pixel`.
     fn take_count(&mut self, remark: &Remark) {
-        const PIXELS: [&str; 7] = ["px", "pix", "pixel", "pixels", "points", "pts", "pt"];
+        const PIXELS: [&str; 8] = ["px", "pxl", "pix", "pixel", "pixels", "points", "pts", "pt"];
         let mut words = remark.value.split([' ', ',', '(', '[']).filter(|word| !word.is_empty());
         let Some(Ok(count)) = words.next().map(str::parse::<usize>) else { return };
         let unit = remark.key_unit.as_deref().or(words.next()).map(|word| word.trim_end_matches([']', ')']));

@@ -18,9 +18,9 @@ pub(super) struct Factor {
 const FACTORS: [&str; 7] =
     ["scale", "factor", "faktor", "multiplier", "scaling", "calibration", "kalibrierung"];
 /// Names of a step.
-const STEPS: [&str; 3] = ["lsb", "resolution", "increment"];
+const STEPS: [&str; 5] = ["lsb", "resolution", "increment", "pitch", "auflosung"];
 /// Words of what a whole number is worth, of heights unless of something else.
-const WORTHS: [&str; 13] = [
+const WORTHS: [&str; 15] = [
     "gain",
     "sensitivity",
     "empfindlichkeit",
@@ -34,6 +34,8 @@ const WORTHS: [&str; 13] = [
     "kalibrierung",
     "digit",
     "zstep",
+    "dz",
+    "hohenauflosung",
 ];
 /// Words of factors that are none of the heights.
 const OTHERS: [&str; 8] = ["x", "y", "xy", "lateral", "pixel", "zoom", "magnification", "camera"];

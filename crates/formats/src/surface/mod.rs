@@ -21,6 +21,7 @@ mod marks;
 mod metropro;
 mod names;
 mod nanoscope;
+mod nanoscope_text;
 mod nid;
 mod npy;
 mod opd;
@@ -91,7 +92,7 @@ fn read_as_written(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 
 /// The reader of a file that begins so.
 fn reader(start: &[u8]) -> Option<Reader> {
-    let known: [(&[u8], Reader); 18] = [
+    let known: [(&[u8], Reader); 19] = [
         (b"\x93NUMPY", npy::read),
         (b"PK\x03\x04", read_archive),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", text::read),
@@ -103,6 +104,7 @@ fn reader(start: &[u8]) -> Option<Reader> {
         (opd::MAGIC, opd::read),
         (opdx::MAGIC, opdx::read),
         (nanoscope::MAGIC, nanoscope::read),
+        (nanoscope_text::QUOTED_MAGIC, nanoscope::read),
         (nid::MAGIC, nid::read),
         (b"VK3_", keyence::read_vk4),
         (b"VK4_", keyence::read_vk4),

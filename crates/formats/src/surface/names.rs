@@ -200,6 +200,7 @@ pub(super) const COLUMNS: &[&str] = &[
     "horizontal",
     "width pixels",
     "width in pixels",
+    "data width",
 ];
 pub(super) const ROWS: &[&str] = &[
     "y pixels",
@@ -219,6 +220,7 @@ pub(super) const ROWS: &[&str] = &[
     "vertikal",
     "height pixels",
     "height in pixels",
+    "data height",
 ];
 
 /// Parts of words that mean a unit.

@@ -4,6 +4,7 @@
 
 use super::bytes::{Bytes, Number};
 use super::measured::{Format, Measured, ReadError, Request};
+use super::nanoscope_text;
 use crate::dimension::Dimension;
 use crate::text::decode;
 use std::collections::HashMap;
@@ -13,17 +14,20 @@ const FORMAT: Format = Format("NanoScope");
 /// The first line.
 pub(super) const MAGIC: &[u8] = b"\\*File list";
 /// Bytes in which a header ends.
-const LONGEST_HEADER: usize = 1 << 20;
+pub(super) const LONGEST_HEADER: usize = 1 << 20;
 /// The full scale of a converter.
 const STEPS: f64 = 65536.0;
 
 /// Keys, in small letters, with their values.
-type Section = HashMap<String, String>;
+pub(super) type Section = HashMap<String, String>;
 
 /// Reads the first channel of heights.
 pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
     let data = request.read_file(path)?;
     let sections = sections(&data);
+    if let Some(at) = nanoscope_text::begins(&data) {
+        return nanoscope_text::read(&decode(&data[at..])?.0, &sections, request);
+    }
     let images: Vec<&Section> =
         sections.iter().filter(|(name, _)| name == "ciao image list").map(|(_, keys)| keys).collect();
     let mut others = Vec::new();
@@ -50,7 +54,9 @@ fn sections(data: &[u8]) -> Vec<(String, Section)> {
     // degrees and micrometres stand in Windows-1252
     let text = decode(&start[..end]).map(|(text, _)| text.into_owned()).unwrap_or_default();
     let mut sections: Vec<(String, Section)> = Vec::new();
-    for line in text.lines().map_while(|line| line.strip_prefix('\\')) {
+    // some versions quote the lines of a text
+    let bare = |line: &'_ str| line.trim().trim_matches('"').strip_prefix('\\').map(str::to_string);
+    for line in text.lines().map_while(bare) {
         if let Some(name) = line.strip_prefix('*') {
             if name.trim().eq_ignore_ascii_case("file list end") {
                 break;
@@ -108,21 +114,26 @@ fn map(data: &[u8], image: &Section, step: f64, request: &Request<'_>) -> Result
         bytes => return Err(FORMAT.header("bytes/pixel", bytes, "it must be 2 or 4")),
     };
     let count = FORMAT.nodes_within(columns, rows, number.size(), request)?;
-    let size: Vec<&str> = words("scan size").split_whitespace().collect();
-    let bad_size =
-        || FORMAT.header("scan size", words("scan size"), "it must be two numbers and a unit of length");
-    let [x, .., unit] = size[..] else { return Err(bad_size()) };
-    let y = if size.len() > 2 { size[1] } else { x };
+    let pixel = pixel(image, [columns, rows])?;
+    let file = Bytes { format: FORMAT, data };
+    let raw = file.slice("heights", whole("data offset")? as usize, count * number.size())?;
+    let raw = number.decode_all(raw, count);
+    let heights = raw.chunks(columns as usize).rev().flatten().map(|z| z * step).collect();
+    Ok(Measured::in_metres(columns, rows, pixel, heights))
+}
+
+/// Distance of so many columns and rows of an image, by its scan size.
+pub(super) fn pixel(image: &Section, [columns, rows]: [u64; 2]) -> Result<[f64; 2], ReadError> {
+    let size = image.get("scan size").map_or("", String::as_str);
+    let bad_size = || FORMAT.header("scan size", size, "it must be two numbers and a unit of length");
+    let words: Vec<&str> = size.split_whitespace().collect();
+    let [x, .., unit] = words[..] else { return Err(bad_size()) };
+    let y = if words.len() > 2 { words[1] } else { x };
     // an old spelling of micrometres
     let unit = Dimension::Length.scale(if unit == "~m" { "um" } else { unit }).ok_or_else(bad_size)?;
     let side = |text: &str, points: u64| -> Result<f64, ReadError> {
         let length: f64 = text.parse().map_err(|_| bad_size())?;
         Ok(FORMAT.positive("scan size", length)? * unit / points as f64)
     };
-    let pixel = [side(x, columns)?, side(y, rows)?];
-    let file = Bytes { format: FORMAT, data };
-    let raw = file.slice("heights", whole("data offset")? as usize, count * number.size())?;
-    let raw = number.decode_all(raw, count);
-    let heights = raw.chunks(columns as usize).rev().flatten().map(|z| z * step).collect();
-    Ok(Measured::in_metres(columns, rows, pixel, heights))
+    Ok([side(x, columns)?, side(y, rows)?])
 }

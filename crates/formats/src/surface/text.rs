@@ -70,6 +70,20 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     Ok(map)
 }
 
+/// A minus before the names of x and y would turn nothing that a contact knows of.
+fn refuse_turned_places(request: &Request<'_>) -> Result<(), ReadError> {
+    for (key, name) in ["x", "y"].into_iter().zip(request.columns) {
+        if let Some(name) = name.filter(|name| name.starts_with(MINUS)) {
+            let name = name.trim_start_matches(MINUS);
+            let problem = format!(
+                "columns.{key}: a minus turns heights, not places: leave it out, {key} = \"{name}\"; a mirrored map has the same contact"
+            );
+            return Err(TextError::whole(problem).into());
+        }
+    }
+    Ok(())
+}
+
 /// Reads rows of heights or of points.
 fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     let mut grid = read_grid(text, request.missing_value, request.decimal)?;
@@ -81,17 +95,8 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
         (grid.columns, grid.parts) = (columns, None);
     }
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
-    let minus = |column: usize| request.columns[column].filter(|name| name.starts_with(MINUS));
-    if let Some((key, name)) =
-        ["x", "y"].into_iter().zip([minus(0), minus(1)]).find_map(|(k, n)| Some((k, n?)))
-    {
-        let name = name.trim_start_matches(MINUS);
-        let problem = format!(
-            "columns.{key}: a minus turns heights, not places: leave it out, {key} = \"{name}\"; a mirrored map has the same contact"
-        );
-        return Err(TextError::whole(problem).into());
-    }
-    let turned = minus(2).is_some();
+    refuse_turned_places(request)?;
+    let turned = request.columns[2].is_some_and(|name| name.starts_with(MINUS));
     let columns = request.columns.map(|name| name.map(|name| name.trim_start_matches(MINUS)));
     let named = Asked { columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
     if !turned && !request.override_file {
@@ -239,19 +244,23 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     if cells.len() != grid.columns || !is_parted || !is_named {
         return Ok(None);
     }
+    let is_down = |cell: &str| {
+        let name = folded_name(cell).0;
+        heights::DEPTHS.iter().chain(&DISTANCES).any(|word| name.contains(word))
+    };
     let (name, unit) = folded_name(&cells[2]);
     let is_length = unit.is_some_and(|unit| Dimension::Length.scale(&unit).is_some());
-    let is_down = heights::DEPTHS.iter().chain(&DISTANCES).any(|word| name.contains(word));
     let third = Asked { columns: [None, None, Some("3")], ..*named };
     let header = Header::new(&grid.dialect, line, text, &POINT, &third);
-    match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down) {
+    match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down(&cells[2])) {
         Some(header) => {
             heights::refuse_several(line, &cells, 2, named.key)?;
             Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, &third, &[])?))
         }
         None => {
+            let minus = |cell: &str| if is_down(cell) { "-" } else { "" };
             let names: Vec<String> =
-                cells.iter().take(3).map(|cell| format!("\"{}\"", shortened(cell))).collect();
+                cells.iter().take(3).map(|cell| format!("\"{}{}\"", minus(cell), shortened(cell))).collect();
             let first = folded_name(&cells[0]).0;
             let [x, y, z] = match first.split(' ').next().unwrap_or("") {
                 // y counts rows
@@ -362,7 +371,7 @@ fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
     let first: Vec<f64> = grid.values.iter().step_by(columns).copied().collect();
     let along = columns == 2 && is_monotone(&first) || rows == 2 && is_monotone(&grid.values[..columns]);
     let problem = if columns.min(rows) == 1 && columns.max(rows) > 2 {
-        "holds one row or column of numbers: this is a profile, a map has at least 2 x 2 points".to_string()
+        "holds one row or column of numbers: this is a profile, a map has at least 2 x 2 points; if it is a map, say above it how many columns and rows it has, like Columns: 60 and Rows: 40".to_string()
     } else if along {
         "holds places and heights along a line: this is a profile x, z, not a map; `asperity crush` takes one as asperity.profile".into()
     } else if columns <= MOST_COLUMNS_OF_POINTS

@@ -408,8 +408,12 @@ impl<'t> Header<'t> {
     ) -> TextError {
         let name = |pick: &Pick| format!("\"{}\"", shortened(&heads[pick.column].text));
         let names: Vec<String> = found[i].iter().take(3).map(name).collect();
+        let is_corrected = |pick: &&Pick| {
+            ["correct", "korrig", "corrig"].iter().any(|word| heads[pick.column].name.contains(word))
+        };
+        let example = |found: &Vec<Pick>| name(found.iter().find(is_corrected).unwrap_or(&found[0]));
         let keys: Vec<String> =
-            wanted.iter().zip(found).map(|(q, f)| format!("{} = {}", q.name, name(&f[0]))).collect();
+            wanted.iter().zip(found).map(|(q, f)| format!("{} = {}", q.name, example(f))).collect();
         let way = key.map_or_else(
             || "leave one out, or give the others another name".to_string(),
             |key| format!("say which, like {key} = {{ {} }}", keys.join(", ")),

@@ -8,8 +8,10 @@ use super::{TextError, shortened};
 use std::collections::HashMap;
 
 mod no_readings;
+mod repeats;
 mod segments;
 
+use repeats::leave_out_repeats;
 use segments::{is_segment, named_segment};
 
 /// The readings of one test.
@@ -449,6 +451,10 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     fn finish(mut self, text: &str) -> Result<SeriesTable<N>, TextError> {
         self.join_counted_rows();
+        let repeats = match leave_out_repeats(&mut self.series) {
+            0 => "",
+            _ => ", a test that repeats another left out",
+        };
         let lines = || self.series.iter().flat_map(|series| &series.lines);
         let (Some(first), Some(last)) = (lines().min(), lines().max()) else {
             return Err(self.nothing(text));
@@ -459,7 +465,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             "{}; {}; {count} rows{}, lines {first} to {last}{}{}",
             self.said,
             self.dialect.describe(),
-            plural(self.series.len(), ", tests"),
+            plural(self.series.len(), ", tests") + repeats,
             if self.skipped > 0 {
                 format!(", other lines left out: {}", self.skipped)
             } else {

@@ -101,24 +101,24 @@ fn pixel_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[Length; 2]>,
     from.deserialize_any(Lengths).map(Some)
 }
 
-/// The names of all units of length.
-fn units() -> Vec<&'static str> {
-    Length::UNITS.iter().map(|(unit, _)| *unit).collect()
+/// Units of heights: those of length, and that of old stylus instruments.
+fn units() -> impl Iterator<Item = (&'static str, f64)> {
+    Length::UNITS.iter().copied().chain([("Å", 1e-10)])
 }
 
 fn unit_schema(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({"enum": units()})
+    json_schema!({"enum": units().map(|(unit, _)| unit).collect::<Vec<_>>()})
 }
 
 impl TryFrom<String> for HeightUnit {
     type Error = String;
 
     fn try_from(name: String) -> Result<HeightUnit, String> {
-        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name);
-        let (_, metres) = unit.ok_or_else(|| {
-            format!("\"{name}\" is not a unit of length: use one of {}", units().join(", "))
+        let (_, metres) = units().find(|(unit, _)| *unit == name).ok_or_else(|| {
+            let known: Vec<&str> = units().map(|(unit, _)| unit).collect();
+            format!("\"{name}\" is not a unit of length: use one of {}", known.join(", "))
         })?;
-        Ok(HeightUnit { metres: *metres, name })
+        Ok(HeightUnit { metres, name })
     }
 }
 

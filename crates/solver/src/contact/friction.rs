@@ -284,9 +284,9 @@ mod tests {
         assert!(up > 1.1 * down, "{up} {down}");
     }
 
-    /// Traction 2 times 0.002 over a width of 1, which falls to nothing where the surface parts: half of it is
-    /// lost over the elastic slip and the way, none where the way takes the slip back; all energy where the
-    /// tool is gone.
+    /// Traction 2 times 0.002 over a width of 1, which falls to nothing where the surface parts: half of it
+    /// is lost over the elastic slip and the way, none where the way takes the slip back; all energy where
+    /// the tool is gone.
     #[test]
     fn what_parts_loses_its_traction_along_the_way() {
         let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);

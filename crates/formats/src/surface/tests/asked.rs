@@ -89,6 +89,28 @@ fn two_columns_of_heights_are_asked_about() {
     assert_eq!(map.heights, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
 }
 
+/// Numbers of columns and rows that are told make a map of one column, and are asked for where they are not.
+#[test]
+fn a_column_of_heights_is_a_map_where_its_sides_are_told() {
+    let column = "0.1\n0.2\n0.3\n0.4\n0.5\n0.6\n";
+    let words = ["Data Width: 3 (pxl)\nData Height: 2 (pxl)\n", "Columns: 3\nRows: 2\n"];
+    for words in words {
+        let map = found(&format!("{words}{column}")).unwrap();
+        assert_eq!((map.columns, map.rows, map.heights[3]), (3, 2, 0.4));
+    }
+    let fault = found(column).unwrap_err();
+    assert!(fault.contains("Columns: 60 and Rows: 40"), "{fault}");
+}
+
+/// What a whole number is worth, in words that name no factor.
+#[test]
+fn a_step_of_heights_beside_whole_numbers_is_asked_about() {
+    for step in ["dz=2.5 nm", "Z pitch (um),0.0025", "Höhenauflösung: 2,5 nm"] {
+        let fault = found(&format!("dx=0.5 um\ndy=0.5 um\n{step}\nunits: nm\n1 2 3\n4 5 6\n7 8 9\n"));
+        assert!(fault.is_err(), "{step}");
+    }
+}
+
 /// The plane of the design, beside which the measured heights stand as deviations.
 #[test]
 fn heights_that_are_the_same_everywhere_are_asked_about() {

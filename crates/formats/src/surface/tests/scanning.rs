@@ -117,3 +117,59 @@ fn files_of_other_microscopes_are_named_with_an_export() {
     let force = found("a.001", b"\\*Force file list\r\n").unwrap_err();
     assert!(force.contains("depth = ramp - bending"), "{force}");
 }
+
+/// A header of NanoScope (images of 3 x 2 points over 1.5 x 0.5 um), whose lines stand in `quotes`.
+fn nanoscope_header(quotes: &str) -> String {
+    let lines = [
+        "*File list",
+        "Version: 0x09400202",
+        "*Ciao image list",
+        "Data offset: 40960",
+        "Data length: 12",
+        "Bytes/pixel: 2",
+        "Scan Size: 1.5 0.5 ~m",
+        "Samps/line: 3",
+        "Number of lines: 2",
+        "@2:Z scale: V [Sens. Zsens] (0.0067 V/LSB) 440.0 V",
+        "*File list end",
+    ];
+    lines.iter().map(|line| format!("{quotes}\\{line}{quotes}\r\n")).collect()
+}
+
+/// Exported as text, numbers stand behind the header of the file of bytes: they were read as 16-bit counts.
+/// Rows from the bottom up, as in the file of bytes.
+#[test]
+fn text_that_nanoscope_exports_is_no_file_of_bytes() {
+    let rows = "1.5\t-2\t3\r\n4\t5.25\t6\r\n";
+    let column = rows.replace('\t', "\r\n");
+    let heights = [4.0, 5.25, 6.0, 1.5, -2.0, 3.0];
+    for quotes in ["", "\""] {
+        for (behind, unit) in [
+            (format!("\r\n\"Height(nm)\"\t\r\n{column}"), Some(1e-9)),
+            (format!("\"Height Sensor(um)\"\r\n{rows}"), Some(1e-6)),
+            (format!("\\Exported image units: nm\r\n{rows}"), Some(1e-9)),
+            (rows.to_string(), None),
+            (column.clone(), None),
+            (
+                format!(
+                    "\"Phase(deg)\"\t\"Height(nm)\"\r\n{}",
+                    column.lines().map(|z| format!("7\t{z}\r\n")).collect::<String>()
+                ),
+                Some(1e-9),
+            ),
+        ] {
+            let text = format!("{}{behind}", nanoscope_header(quotes));
+            let map = found("a.txt", text.as_bytes()).unwrap_or_else(|e| panic!("{behind}: {e}"));
+            same(&map, heights, 1.0);
+            assert_eq!(map.height_unit, unit, "{behind}");
+            let Spacing::Metres(p) = map.spacing else { panic!() };
+            assert!((p[0] / 0.5e-6 - 1.0).abs() < 1e-12 && (p[1] / 0.25e-6 - 1.0).abs() < 1e-12, "{p:?}");
+        }
+    }
+    for (behind, word) in
+        [("1\t2\r\n3\t4\r\n", "Samps/line"), ("Phase(deg)\r\n1\t2\t3\r\n4\t5\t6\r\n", "Height")]
+    {
+        let refused = found("a.txt", format!("{}{behind}", nanoscope_header("")).as_bytes()).unwrap_err();
+        assert!(refused.contains(word), "{refused}");
+    }
+}

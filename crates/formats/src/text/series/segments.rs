@@ -34,9 +34,15 @@ const FIRST: [&str; 7] = ["load", "loading", "approach", "surface", "belastung",
 /// Words that may stand beside them.
 const BESIDE: [&str; 8] = ["phase", "step", "data", "no", "nr", "number", "curve", "start"];
 
+/// Words beside that of a segment in its name, as `Unload From Peak Segment Type`.
+const OF_SEGMENTS: [&str; 6] = ["type", "from", "peak", "thermal", "drift", "end"];
+
 /// True of the name of a segment.
 pub(super) fn is_segment(cell: &str) -> bool {
-    SEGMENTS.contains(&folded(cell).as_str())
+    let name = folded(cell);
+    let mut words = name.split([' ', '_']).filter(|word| !word.is_empty());
+    let is_word = |word: &str| SEGMENTS.contains(&word) || OF_SEGMENTS.contains(&word);
+    SEGMENTS.contains(&name.as_str()) || name.contains("segment") && words.all(is_word)
 }
 
 /// A line that names a segment and nothing else: `Segment 2`, `Hold`, `[Segment: 3 (Unload)]`; true where it
@@ -65,6 +71,17 @@ pub(super) fn named_segment(line: &str) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_that_name_a_segment_are_known() {
+        let [unload, drift] = ["Unload From Peak Segment Type", "Thermal Drift Hold Segment Type"];
+        for cell in ["Hold", "Load Segment Type", unload, drift, "UNLOAD_FROM_PEAK_SEGMENT", "End Segment"] {
+            assert!(is_segment(cell), "{cell}");
+        }
+        for cell in ["Peak Load", "Drift", "From Segment 2 on", "n.a.", ""] {
+            assert!(!is_segment(cell), "{cell}");
+        }
+    }
 
     #[test]
     fn segments_are_told_from_other_words() {

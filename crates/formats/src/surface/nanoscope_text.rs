@@ -1,0 +1,101 @@
+//! The text that NanoScope exports: the header of its images (`\key: value`, some versions in quotes), then
+//! heights as numbers, in a matrix or one below the other, with a column for each channel.
+//! Source: Bruker, "NanoScope Analysis user manual", Export ASCII; header as in [`super::nanoscope`].
+
+use super::measured::{Format, Measured, ReadError, Request};
+use super::nanoscope::{self, Section};
+use crate::dimension::Dimension;
+use crate::text::{TextError, read_grid};
+
+const FORMAT: Format = Format("NanoScope text");
+/// The first line where each is in quotes.
+pub(super) const QUOTED_MAGIC: &[u8] = b"\"\\*File list";
+/// The end of a header, in small letters.
+const END: &[u8] = b"\\*file list end";
+/// Bytes behind a header that tell whether numbers follow as text.
+const LOOKED_AT: usize = 64;
+
+/// Where the text behind the header of `data` begins; `None` of a file of bytes.
+pub(super) fn begins(data: &[u8]) -> Option<usize> {
+    let start = &data[..data.len().min(nanoscope::LONGEST_HEADER)];
+    let at = start.windows(END.len()).position(|bytes| bytes.eq_ignore_ascii_case(END))? + END.len();
+    let behind = &data[at..data.len().min(at + LOOKED_AT)];
+    let is_text = |byte: &u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || *byte >= 0x80;
+    let holds = behind.iter().any(u8::is_ascii_alphanumeric) && behind.iter().all(is_text);
+    holds.then_some(at)
+}
+
+/// Reads the heights of a `text` from the header on, of an image of these `sections`.
+pub(super) fn read(
+    text: &str,
+    sections: &[(String, Section)],
+    request: &Request<'_>,
+) -> Result<Measured, ReadError> {
+    // from the line behind that of the end
+    let text = text.split_once('\n').map_or("", |(_, rest)| rest);
+    let is_number = |line: &str| line.trim().starts_with(|c: char| c.is_ascii_digit() || c == '-');
+    let first = text.lines().position(is_number).unwrap_or(0);
+    let names = text.lines().take(first).flat_map(|line| line.split(['\t', ','])).map(bare);
+    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    let numbers = text.lines().skip(first).collect::<Vec<_>>().join("\n");
+    let grid = read_grid(&numbers, request.missing_value, request.decimal)
+        .map_err(|error| TextError::whole(error.message))?;
+    let images = || sections.iter().filter(|(name, _)| name == "ciao image list").map(|(_, keys)| keys);
+    let counts = |image: &Section| {
+        let count = |key: &str| image.get(key).and_then(|text| text.parse::<usize>().ok());
+        Some([count("samps/line")?, count("number of lines")?])
+    };
+    let (columns, rows) = (grid.columns, grid.rows());
+    let fits =
+        |image: &&Section| counts(image).is_some_and(|[x, y]| [columns, rows] == [x, y] || rows == x * y);
+    let Some((image, [x, y])) = images().find(fits).and_then(|image| Some((image, counts(image)?))) else {
+        let found = format!("{columns} columns and {rows} rows");
+        return Err(FORMAT.header("Samps/line, Number of lines", found, "they must be those of the numbers"));
+    };
+    let is_matrix = [columns, rows] == [x, y];
+    let length = |name: &&str| Dimension::Length.scale(unit_of(name)?);
+    let channel =
+        if is_matrix { 0 } else { names.iter().position(|name| length(name).is_some()).unwrap_or(0) };
+    let unit = names.iter().find_map(|name| unit_of(name)).map(|unit| (unit, Dimension::Length.scale(unit)));
+    let unit = if is_matrix {
+        unit
+    } else {
+        names.get(channel).and_then(|name| Some((unit_of(name)?, length(name))))
+    };
+    if let Some((unit, None)) = unit {
+        return Err(FORMAT.header("unit", unit, "heights have a length: export the Height channel"));
+    }
+    if !is_matrix && columns > 1 && unit.is_none() {
+        let found = format!("{columns} columns");
+        return Err(FORMAT.header(
+            "names of the channels",
+            found,
+            "export the Height channel alone, or in nm",
+        ));
+    }
+    let values: Vec<f64> = if is_matrix {
+        grid.values
+    } else {
+        grid.values.into_iter().skip(channel).step_by(columns).collect()
+    };
+    let heights = values.chunks(x).rev().flatten().copied().collect();
+    let pixel = nanoscope::pixel(image, [x as u64, y as u64])?;
+    let mut map = Measured::in_metres(x as u64, y as u64, pixel, heights);
+    map.height_unit = unit.and_then(|(_, scale)| scale);
+    let what = if is_matrix { "a matrix".into() } else { format!("column {} of points", channel + 1) };
+    map.notes.push(format!("text of NanoScope: {what}, size of the scan from its header"));
+    Ok(map)
+}
+
+/// A word without quotes and the mark of a key.
+fn bare(word: &str) -> &str {
+    word.trim().trim_matches('"').trim_start_matches('\\').trim()
+}
+
+/// The unit of `Height(nm)`, or of `Exported image units: nm`.
+fn unit_of(name: &str) -> Option<&str> {
+    if let Some((key, unit)) = name.split_once(':') {
+        return key.to_ascii_lowercase().contains("units").then(|| unit.trim());
+    }
+    name.strip_suffix(')')?.rsplit_once('(').map(|(_, unit)| unit.trim())
+}
