@@ -506,7 +506,7 @@ class SurfaceTable(TypedDict, total=False):
     generate: GenerateTable
     """Instead of a file."""
 
-    height_unit: Literal["um", "nm", "mm", "cm", "m", "µm", "μm", "pm", "km"]
+    height_unit: Literal["um", "nm", "mm", "cm", "m", "µm", "μm", "pm", "km", "Å"]
     """Unit of the heights, where the file does not say."""
 
     l_filter: str

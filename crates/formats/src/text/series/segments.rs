@@ -34,15 +34,16 @@ const FIRST: [&str; 7] = ["load", "loading", "approach", "surface", "belastung",
 /// Words that may stand beside them.
 const BESIDE: [&str; 8] = ["phase", "step", "data", "no", "nr", "number", "curve", "start"];
 
-/// Words beside that of a segment in its name, as `Unload From Peak Segment Type`.
-const OF_SEGMENTS: [&str; 6] = ["type", "from", "peak", "thermal", "drift", "end"];
-
-/// True of the name of a segment.
+/// True of the name of a segment: one of them, or words with it that end in a type, as `Unload From Peak
+/// Segment Type`.
 pub(super) fn is_segment(cell: &str) -> bool {
     let name = folded(cell);
-    let mut words = name.split([' ', '_']).filter(|word| !word.is_empty());
-    let is_word = |word: &str| SEGMENTS.contains(&word) || OF_SEGMENTS.contains(&word);
-    SEGMENTS.contains(&name.as_str()) || name.contains("segment") && words.all(is_word)
+    let words: Vec<&str> = name.split([' ', '_']).filter(|word| !word.is_empty()).collect();
+    let is_kind = |word: &&str| *word != "segment" && SEGMENTS.contains(word);
+    SEGMENTS.contains(&name.as_str())
+        || words.contains(&"segment")
+            && words.iter().any(|word| is_kind(word) || *word == "end")
+            && !name.contains(|c: char| c.is_ascii_digit())
 }
 
 /// A line that names a segment and nothing else: `Segment 2`, `Hold`, `[Segment: 3 (Unload)]`; true where it
@@ -75,7 +76,14 @@ mod tests {
     #[test]
     fn cells_that_name_a_segment_are_known() {
         let [unload, drift] = ["Unload From Peak Segment Type", "Thermal Drift Hold Segment Type"];
-        for cell in ["Hold", "Load Segment Type", unload, drift, "UNLOAD_FROM_PEAK_SEGMENT", "End Segment"] {
+        for cell in [
+            "Hold",
+            "Load Segment Type",
+            unload,
+            drift,
+            "UNLOAD_FROM_PEAK_SEGMENT",
+            "Complete Unload Segment",
+        ] {
             assert!(is_segment(cell), "{cell}");
         }
         for cell in ["Peak Load", "Drift", "From Segment 2 on", "n.a.", ""] {
