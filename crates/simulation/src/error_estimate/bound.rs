@@ -341,6 +341,15 @@ mod tests {
         }
     }
 
+    /// What penetration and mesh hide is a larger share of a smaller depth, by a power of it.
+    #[test]
+    fn what_is_hidden_grows_towards_the_touch() {
+        let hidden = Hidden { balanced: 0.003, even: 0.004 };
+        assert!((hidden.in_squares(0.0) - 0.005).abs() < 1e-15);
+        let grown = (0.003 * 0.5_f64.powf(-FITTED.errors.toward_touch)).hypot(0.004);
+        assert!((hidden.in_squares(0.5_f64.ln()) / grown - 1.0).abs() < 1e-12);
+    }
+
     /// Run and companion that agree say nothing of the end of the contact, which nine tenths of the
     /// penetration leave open: twice in an area of axisymmetry, once in a width.
     #[test]

@@ -152,3 +152,23 @@ fn what_is_dissipated_is_what_yielding_and_friction_take() {
     row.external_work = 0.0;
     assert_eq!(dissipated(&row), 1.0);
 }
+
+/// A stiffness that the companion has 3 % higher is stated with that, and half of what is stated of the area.
+#[test]
+fn a_stiffness_is_stated_with_its_share_of_the_companion() {
+    let mut run = cone();
+    run.summary.unloading_stiffness = Some(2.0);
+    let mut other = companion(&run, 1.0);
+    other.summary.unloading_stiffness = Some(2.06);
+    let setting = Setting {
+        symmetry: Symmetry::Axisymmetric,
+        element: run.numbers.element,
+        penetration: run.numbers.penetration,
+        log_step: run.numbers.last_log_step(),
+        same_mesh: false,
+    };
+    let errors = extrapolate_and_bound(run, &other, setting).summary.errors;
+    let expected = 0.03_f64.hypot(0.5 * errors.contact_area);
+    let found = errors.unloading_stiffness.unwrap();
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+}

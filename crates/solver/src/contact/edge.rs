@@ -314,3 +314,19 @@ pub fn divide([start, end]: [f64; 2]) -> [[f64; 3]; 4] {
 fn quadratic_shape(xi: f64) -> [f64; 3] {
     [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_of_twice_the_length_has_twice_the_area_and_a_ring_four_times() {
+        for (symmetry, stretch) in [(Symmetry::PlaneStrain, 2.0), (Symmetry::Axisymmetric, 4.0)] {
+            let edge = ContactEdge::new([0, 1], None, |node| [1.0 + f64::from(node), 0.0], symmetry);
+            let wider = edge.reference.map(|[r, z]| [2.0 * r, z]);
+            for xi in [-1.0, 0.3, 1.0] {
+                assert!((edge.stretch(&wider, xi) / stretch - 1.0).abs() < 1e-12, "{symmetry:?} {xi}");
+            }
+        }
+    }
+}

@@ -389,6 +389,9 @@ mod tests {
             let facing = Facing::new(&edges, &turned, &[[0.1; 2]; 6], &Facing::default());
             energy(&facing, &edges, &turned)
         };
+        let facing = Facing::new(&edges, &position, &[[0.1; 2]; 6], &Facing::default());
+        let twice: f64 = facing.press(&edges, 6.0, |n| position[n as usize]).map(|p| p.energy).sum();
+        assert!((twice / energy(&facing, &edges, &position) - 2.0).abs() < 1e-12, "by the penalty: {twice}");
         let level = found(0.0);
         for angle in [30.0, 45.0, 90.0, 135.0, 220.0] {
             assert!(level > 0.0 && (found(angle) / level - 1.0).abs() < 1e-9, "{angle}: {level}");

@@ -244,4 +244,35 @@ mod tests {
         assert_eq!(tensile_part(&[0.0, 0.0, 0.0, 2.0]), [1.0, 1.0, 0.0, 1.0]);
         assert_eq!(tensile_part(&[3.0, -1.0, -2.0, 0.0]), [3.0, 0.0, 0.0, 0.0]);
     }
+
+    /// Stretched to the strains 0.01, 0.004, 0 with what part of it is plastic: the energy is that of what is
+    /// elastic, a body whose strain is plastic does not yield, and one that is elastic yields by its stress.
+    #[test]
+    fn energy_and_yielding_go_by_what_is_elastic_of_the_strain() {
+        let elastic = Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 };
+        let (strain, volume) = ([0.01_f64, 0.004, 0.0], 0.014);
+        let deviator = [strain[0] - volume / 3.0, strain[1] - volume / 3.0, -volume / 3.0, 0.0];
+        let stretched = |plastic: Sym| {
+            let deformation = [strain[0].exp_m1(), 0.0, 0.0, strain[1].exp_m1(), strain[2].exp_m1()];
+            History { deformation, plastic, back: [0.0; 4] }
+        };
+        let (k, g) = (elastic.bulk_modulus(), elastic.shear_modulus());
+        for share in [0.0, 0.4, 1.0] {
+            let left = deviator.map(|e| (1.0 - share) * e);
+            let found = elastic_energy(&elastic, &stretched(deviator.map(|e| share * e)));
+            let exact = 0.5 * k * volume * volume + g * left.iter().map(|e| e * e).sum::<f64>();
+            assert!((found / exact - 1.0).abs() < 1e-12, "{share}: {found} {exact}");
+        }
+        let curve =
+            Hardening { law: HardeningLaw::Swift, yield_stress: 1.0, exponent: 0.2, youngs_modulus: 500.0 };
+        let stress_measure = asperity_material::StressMeasure::Kirchhoff;
+        let metal = Metal { elastic, hardening: Some(curve.into()), kinematic_share: 1.0, stress_measure };
+        let start = metal.virgin();
+        let size = root() * deviator.iter().map(|e| e * e).sum::<f64>().sqrt();
+        for (share, function) in [(0.0, 2.0 * g * size - 1.0), (1.0, -1.0), (0.5, g * size - 1.0)] {
+            let history = stretched(deviator.map(|e| share * e));
+            let found = yield_function(&metal, &start, Some(&history));
+            assert!((found - function).abs() < 1e-9, "{share}: {found} {function}");
+        }
+    }
 }
