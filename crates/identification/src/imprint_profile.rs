@@ -267,7 +267,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_second_profile_is_refused_with_its_line() {
-        let beside = |_: i32, x: f64, z: f64| format!("{x:.1},{z:.3},{x:.1},{z:.3}");
+        let beside = |_: i32, x: f64, z: f64| format!("{x:.1},{z:.3},{x:.1},{:.3}", 0.9 * z);
         refused(&cone("x_um,z_um,x_um,z_um", beside), &["2 profiles", "keep one"]);
         let row = |_: i32, x: f64, z: f64| format!("{x:.1},{z:.3}");
         let below = cone("x_um,z_um", row) + &cone("x_um,z_um", row);
