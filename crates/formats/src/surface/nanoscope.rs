@@ -4,11 +4,9 @@
 
 use super::bytes::{Bytes, Number};
 use super::measured::{Format, Measured, ReadError, Request};
-use super::nanoscope_text;
 use crate::dimension::Dimension;
 use crate::text::decode;
 use std::collections::HashMap;
-use std::path::Path;
 
 const FORMAT: Format = Format("NanoScope");
 /// The first line.
@@ -21,20 +19,19 @@ const STEPS: f64 = 65536.0;
 /// Keys, in small letters, with their values.
 pub(super) type Section = HashMap<String, String>;
 
-/// Reads the first channel of heights.
-pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
-    let data = request.read_file(path)?;
-    let sections = sections(&data);
-    if let Some(at) = nanoscope_text::begins(&data) {
-        return nanoscope_text::read(&decode(&data[at..])?.0, &sections, request);
-    }
+/// Reads the first channel of heights of the bytes of a file, whose header has these sections.
+pub(super) fn read(
+    data: &[u8],
+    sections: &[(String, Section)],
+    request: &Request<'_>,
+) -> Result<Measured, ReadError> {
     let images: Vec<&Section> =
         sections.iter().filter(|(name, _)| name == "ciao image list").map(|(_, keys)| keys).collect();
     let mut others = Vec::new();
     for (i, image) in images.iter().enumerate() {
-        match step(image, &sections) {
+        match step(image, sections) {
             Ok(step) => {
-                let mut map = map(&data, image, step, request)?;
+                let mut map = map(data, image, step, request)?;
                 if images.len() > 1 {
                     map.notes.push(format!("channel {}, the first of heights among {}", i + 1, images.len()));
                 }
@@ -48,7 +45,7 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 }
 
 /// The sections of the header, in order.
-fn sections(data: &[u8]) -> Vec<(String, Section)> {
+pub(super) fn sections(data: &[u8]) -> Vec<(String, Section)> {
     let start = &data[..data.len().min(LONGEST_HEADER)];
     let end = start.iter().position(|b| *b == 0x1a || *b == 0).unwrap_or(start.len());
     // degrees and micrometres stand in Windows-1252

@@ -5,7 +5,8 @@
 use super::measured::{Format, Measured, ReadError, Request};
 use super::nanoscope::{self, Section};
 use crate::dimension::Dimension;
-use crate::text::{TextError, read_grid};
+use crate::text::{TextError, decode, read_grid};
+use std::path::Path;
 
 const FORMAT: Format = Format("NanoScope text");
 /// The first line where each is in quotes.
@@ -15,8 +16,18 @@ const END: &[u8] = b"\\*file list end";
 /// Bytes behind a header that tell whether numbers follow as text.
 const LOOKED_AT: usize = 64;
 
+/// Reads a file that begins like one of NanoScope, of bytes or exported as text.
+pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let data = request.read_file(path)?;
+    let sections = nanoscope::sections(&data);
+    match begins(&data) {
+        Some(at) => read_text(&decode(&data[at..])?.0, &sections, request),
+        None => nanoscope::read(&data, &sections, request),
+    }
+}
+
 /// Where the text behind the header of `data` begins; `None` of a file of bytes.
-pub(super) fn begins(data: &[u8]) -> Option<usize> {
+fn begins(data: &[u8]) -> Option<usize> {
     let start = &data[..data.len().min(nanoscope::LONGEST_HEADER)];
     let at = start.windows(END.len()).position(|bytes| bytes.eq_ignore_ascii_case(END))? + END.len();
     let behind = &data[at..data.len().min(at + LOOKED_AT)];
@@ -26,7 +37,7 @@ pub(super) fn begins(data: &[u8]) -> Option<usize> {
 }
 
 /// Reads the heights of a `text` from the header on, of an image of these `sections`.
-pub(super) fn read(
+fn read_text(
     text: &str,
     sections: &[(String, Section)],
     request: &Request<'_>,

@@ -451,7 +451,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     fn finish(mut self, text: &str) -> Result<SeriesTable<N>, TextError> {
         self.join_counted_rows();
-        let repeats = match leave_out_repeats(&mut self.series) {
+        let repeats = match leave_out_repeats(&mut self.series, |test| (&test.lines, &test.rows)) {
             0 => "",
             _ => ", a test that repeats another left out",
         };
