@@ -49,15 +49,18 @@ fn companion(run: &Outcome, share: f64) -> Outcome {
     companion
 }
 
-fn compared(run: &Outcome, share: f64) -> Outcome {
-    let setting = Setting {
+fn setting(run: &Outcome) -> Setting {
+    Setting {
         symmetry: Symmetry::Axisymmetric,
         element: run.numbers.element,
         penetration: run.numbers.penetration,
         log_step: run.numbers.last_log_step(),
         same_mesh: false,
-    };
-    extrapolate_and_bound(run.clone(), &companion(run, share), setting)
+    }
+}
+
+fn compared(run: &Outcome, share: f64) -> Outcome {
+    extrapolate_and_bound(run.clone(), &companion(run, share), setting(run))
 }
 
 #[test]
@@ -160,13 +163,7 @@ fn a_stiffness_is_stated_with_its_share_of_the_companion() {
     run.summary.unloading_stiffness = Some(2.0);
     let mut other = companion(&run, 1.0);
     other.summary.unloading_stiffness = Some(2.06);
-    let setting = Setting {
-        symmetry: Symmetry::Axisymmetric,
-        element: run.numbers.element,
-        penetration: run.numbers.penetration,
-        log_step: run.numbers.last_log_step(),
-        same_mesh: false,
-    };
+    let setting = setting(&run);
     let errors = extrapolate_and_bound(run, &other, setting).summary.errors;
     let expected = 0.03_f64.hypot(0.5 * errors.contact_area);
     let found = errors.unloading_stiffness.unwrap();
