@@ -25,8 +25,7 @@ pub(super) fn read(
     sections: &[(String, Section)],
     request: &Request<'_>,
 ) -> Result<Measured, ReadError> {
-    let images: Vec<&Section> =
-        sections.iter().filter(|(name, _)| name == "ciao image list").map(|(_, keys)| keys).collect();
+    let images: Vec<&Section> = images(sections).collect();
     let mut others = Vec::new();
     for (i, image) in images.iter().enumerate() {
         match step(image, sections) {
@@ -42,6 +41,11 @@ pub(super) fn read(
     }
     let found = if others.is_empty() { "nothing".into() } else { others.join(", ") };
     Err(FORMAT.header("@2:Z scale", found, "one channel must hold heights: export the Height channel"))
+}
+
+/// The sections of the images, in order.
+pub(super) fn images(sections: &[(String, Section)]) -> impl Iterator<Item = &Section> {
+    sections.iter().filter(|(name, _)| name == "ciao image list").map(|(_, keys)| keys)
 }
 
 /// The sections of the header, in order.

@@ -46,12 +46,10 @@ fn read_text(
     let text = text.split_once('\n').map_or("", |(_, rest)| rest);
     let is_number = |line: &str| line.trim().starts_with(|c: char| c.is_ascii_digit() || c == '-');
     let first = text.lines().position(is_number).unwrap_or(0);
-    let names = text.lines().take(first).flat_map(|line| line.split(['\t', ','])).map(bare);
-    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    let words: Vec<Vec<&str>> = text.lines().take(first).map(cells).collect();
     let numbers = text.lines().skip(first).collect::<Vec<_>>().join("\n");
     let grid = read_grid(&numbers, request.missing_value, request.decimal)
         .map_err(|error| TextError::whole(error.message))?;
-    let images = || sections.iter().filter(|(name, _)| name == "ciao image list").map(|(_, keys)| keys);
     let counts = |image: &Section| {
         let count = |key: &str| image.get(key).and_then(|text| text.parse::<usize>().ok());
         Some([count("samps/line")?, count("number of lines")?])
@@ -59,30 +57,29 @@ fn read_text(
     let (columns, rows) = (grid.columns, grid.rows());
     let fits =
         |image: &&Section| counts(image).is_some_and(|[x, y]| [columns, rows] == [x, y] || rows == x * y);
-    let Some((image, [x, y])) = images().find(fits).and_then(|image| Some((image, counts(image)?))) else {
+    let Some((image, [x, y])) =
+        nanoscope::images(sections).find(fits).and_then(|image| Some((image, counts(image)?)))
+    else {
         let found = format!("{columns} columns and {rows} rows");
         return Err(FORMAT.header("Samps/line, Number of lines", found, "they must be those of the numbers"));
     };
     let is_matrix = [columns, rows] == [x, y];
-    let length = |name: &&str| Dimension::Length.scale(unit_of(name)?);
-    let channel =
-        if is_matrix { 0 } else { names.iter().position(|name| length(name).is_some()).unwrap_or(0) };
-    let unit = names.iter().find_map(|name| unit_of(name)).map(|unit| (unit, Dimension::Length.scale(unit)));
-    let unit = if is_matrix {
-        unit
+    // several channels are told apart by the line of their names alone
+    let (channel, unit) = if is_matrix || columns == 1 {
+        (0, words.iter().flatten().find_map(|cell| unit_of(cell)))
     } else {
-        names.get(channel).and_then(|name| Some((unit_of(name)?, length(name))))
+        let names = words.iter().rev().find(|cells| cells.len() == columns);
+        let is_length = |cell: &&str| matches!(unit_of(cell), Some((_, Some(_))));
+        let channel = names.and_then(|names| names.iter().position(is_length));
+        let Some((channel, names)) = channel.zip(names) else {
+            let found = format!("{columns} columns");
+            let way = "export the Height channel alone, or in nm";
+            return Err(FORMAT.header("names of the channels", found, way));
+        };
+        (channel, unit_of(names[channel]))
     };
     if let Some((unit, None)) = unit {
         return Err(FORMAT.header("unit", unit, "heights have a length: export the Height channel"));
-    }
-    if !is_matrix && columns > 1 && unit.is_none() {
-        let found = format!("{columns} columns");
-        return Err(FORMAT.header(
-            "names of the channels",
-            found,
-            "export the Height channel alone, or in nm",
-        ));
     }
     let values: Vec<f64> = if is_matrix {
         grid.values
@@ -98,15 +95,20 @@ fn read_text(
     Ok(map)
 }
 
-/// A word without quotes and the mark of a key.
-fn bare(word: &str) -> &str {
-    word.trim().trim_matches('"').trim_start_matches('\\').trim()
+/// The words of a line, without quotes and the mark of a key.
+fn cells(line: &str) -> Vec<&str> {
+    let words = line.split(['\t', ',']);
+    words
+        .map(|word| word.trim().trim_matches('"').trim_start_matches('\\').trim())
+        .filter(|word| !word.is_empty())
+        .collect()
 }
 
-/// The unit of `Height(nm)`, or of `Exported image units: nm`.
-fn unit_of(name: &str) -> Option<&str> {
-    if let Some((key, unit)) = name.split_once(':') {
-        return key.to_ascii_lowercase().contains("units").then(|| unit.trim());
-    }
-    name.strip_suffix(')')?.rsplit_once('(').map(|(_, unit)| unit.trim())
+/// The unit of `Height(nm)`, or of `Exported image units: nm`, with its metres where it is a length.
+fn unit_of(cell: &str) -> Option<(&str, Option<f64>)> {
+    let unit = match cell.split_once(':') {
+        Some((key, unit)) => key.to_ascii_lowercase().contains("units").then_some(unit)?,
+        None => cell.strip_suffix(')')?.rsplit_once('(')?.1,
+    };
+    Some((unit.trim(), Dimension::Length.scale(unit.trim())))
 }

@@ -212,7 +212,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
             }
             return Ok(Some(columns));
         }
-        units = units.or(Some(text));
+        units.get_or_insert(text);
     }
     if named.columns.iter().all(Option::is_none) {
         return Ok(None);
@@ -280,6 +280,28 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     }
 }
 
+/// Heights that are the same at every point, beside a column that varies: a plane and what stands off it.
+fn refuse_level(grid: &Grid<'_>, places: [usize; 3]) -> Result<(), ReadError> {
+    let varies = |column: usize| {
+        let mut values = grid.values.iter().skip(column).step_by(grid.columns);
+        let first = values.next();
+        values.any(|value| Some(value) != first)
+    };
+    let other = || (0..grid.columns).find(|column| !places.contains(column) && varies(*column));
+    let [x, y, z] = places.map(|column| column + 1);
+    match other() {
+        Some(other) if !varies(places[2]) => {
+            let problem = format!(
+                "the height, column {z}, is {} at every point: say which column holds it, like columns = {{ x = \"{x}\", y = \"{y}\", z = \"{}\" }}",
+                grid.values[places[2]],
+                other + 1
+            );
+            Err(TextError::new(grid.lines[0], problem).into())
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The map through the points whose coordinates stand in `columns`.
 fn points(
     mut grid: Grid<'_>,
@@ -300,14 +322,8 @@ fn points(
         .chunks_exact(grid.columns)
         .map(|row| [row[place(0)], row[place(1)], row[place(2)]])
         .collect();
-    let level = points.len() > 1 && points.windows(2).all(|pair| pair[0][2] == pair[1][2]);
-    if level && grid.columns > 3 && request.columns[2].is_none() {
-        let problem = format!(
-            "the height, column {}, is {} at every point: say which column holds it, like columns = {{ x = \"1\", y = \"2\", z = \"4\" }}",
-            place(2) + 1,
-            points[0][2]
-        );
-        return Err(TextError::new(grid.lines[0], problem).into());
+    if request.columns[2].is_none() {
+        refuse_level(&grid, [place(0), place(1), place(2)])?;
     }
     let scales = [0, 1].map(|k| picks[k].scale);
     drop(grid.values);

@@ -102,12 +102,13 @@ fn a_column_of_heights_is_a_map_where_its_sides_are_told() {
     assert!(fault.contains("Columns: 60 and Rows: 40"), "{fault}");
 }
 
-/// What a whole number is worth, in words that name no factor.
+/// The worth of a whole number, in words that name no factor.
 #[test]
 fn a_step_of_heights_beside_whole_numbers_is_asked_about() {
     for step in ["dz=2.5 nm", "Z pitch (um),0.0025", "Höhenauflösung: 2,5 nm"] {
         let fault = found(&format!("dx=0.5 um\ndy=0.5 um\n{step}\nunits: nm\n1 2 3\n4 5 6\n7 8 9\n"));
-        assert!(fault.is_err(), "{step}");
+        let fault = fault.expect_err(step);
+        assert!(fault.contains("whole numbers"), "{step}: {fault}");
     }
 }
 
@@ -115,7 +116,9 @@ fn a_step_of_heights_beside_whole_numbers_is_asked_about() {
 #[test]
 fn heights_that_are_the_same_everywhere_are_asked_about() {
     let fault = found(&points("X [um]\tY [um]\tZ [um]\tDev [um]", |i| format!("5\t0.{i}"))).unwrap_err();
-    assert!(fault.contains("column 3, is 5 at every point"), "{fault}");
+    assert!(fault.contains("column 3, is 5 at every point") && fault.contains("z = \"4\""), "{fault}");
+    let alone = found(&points("X [um]\tY [um]\tZ [um]\tDev [um]", |_| "5\t0".into())).unwrap();
+    assert!(alone.heights.iter().all(|z| *z == 5.0));
 }
 
 /// A minus before the name of a column of depths was passed over.

@@ -157,6 +157,13 @@ fn text_that_nanoscope_exports_is_no_file_of_bytes() {
                 ),
                 Some(1e-9),
             ),
+            (
+                format!(
+                    "\\Exported image units: nm\r\nPhase(deg)\tHeight(um)\r\n{}",
+                    column.lines().map(|z| format!("7\t{z}\r\n")).collect::<String>()
+                ),
+                Some(1e-6),
+            ),
         ] {
             let text = format!("{}{behind}", nanoscope_header(quotes));
             let map = found("a.txt", text.as_bytes()).unwrap_or_else(|e| panic!("{behind}: {e}"));

@@ -34,7 +34,7 @@ const FIRST: [&str; 7] = ["load", "loading", "approach", "surface", "belastung",
 /// Words that may stand beside them.
 const BESIDE: [&str; 8] = ["phase", "step", "data", "no", "nr", "number", "curve", "start"];
 
-/// True of the name of a segment: one of them, or words with it that end in a type, as `Unload From Peak
+/// True of the name of a segment: one of them alone, or the word for it beside one, as in `Unload From Peak
 /// Segment Type`.
 pub(super) fn is_segment(cell: &str) -> bool {
     let name = folded(cell);
