@@ -192,10 +192,11 @@ fn punch_radius(radius: f64, edge: f64, depth: f64) -> f64 {
 }
 
 /// The contact of a punch ends in one edge of the mesh all the way, so that two meshes say nothing of the
-/// order of its error. S is within what is stated, and within 1.5 % of that of a disc as wide as the contact
-/// of the run (0.3 to 1.3 % were measured; springs along a normal that turns within the last edge made it 2 %
-/// on the finest mesh); the area is within what is stated on 11 of 12 meshes. (Under the edge of 5 µm it is
-/// 7.6 % too small at 3 %, of which 3.1 % is stated.)
+/// order of its error. S is within what is stated, at `standard` and `reference` within 1.2 % (0.2 to 1.1 %
+/// were measured), and within 1.5 % of that of a disc as wide as the contact of the run (0.3 to 1.3 %;
+/// springs along a normal that turns within the last edge made it 2 % on the finest mesh); the area is within
+/// what is stated on 11 of 12 meshes. (Under the edge of 5 µm it is 7.6 % too small at 3 %, of which 3.1 % is
+/// stated.)
 #[test]
 fn a_punch_has_the_stiffness_and_the_area_of_its_radius() {
     let (radius, depth) = (20e-6, 0.1e-6);
@@ -209,7 +210,8 @@ fn a_punch_has_the_stiffness_and_the_area_of_its_radius() {
             let over =
                 |radius: f64| (summary.unloading_stiffness.unwrap() / (2.0 * modulus * radius) - 1.0).abs();
             let [stiffness, beyond_area] = [over(a), over((summary.contact_area / PI).sqrt())];
-            let stated = summary.errors.unloading_stiffness.unwrap();
+            let fine = accuracy.promise() <= Accuracy::Standard.promise();
+            let stated = summary.errors.unloading_stiffness.unwrap().min(if fine { 0.012 } else { 1.0 });
             assert!(stiffness < stated, "{edge:e} at {accuracy:?}: {stiffness:e}, stated {stated:e}");
             assert!(beyond_area < 0.015, "{edge:e} at {accuracy:?}: {beyond_area:e}");
             let area = (summary.contact_area / (PI * a * a) - 1.0).abs();

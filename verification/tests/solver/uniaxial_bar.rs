@@ -69,7 +69,8 @@ fn the_plastic_work_of_an_increment_is_what_tension_does_beyond_its_elastic_ener
     let steps = 20_000;
     // elastic below the yield strain, where eq. (1) lies above
     let at = |i: f64| {
-        (strain * i / f64::from(steps)).min(hollomon_stress(&hardening, strain * i / f64::from(steps)))
+        let reached = strain * i / f64::from(steps);
+        reached.min(hollomon_stress(&hardening, reached))
     };
     let whole: f64 = (0..steps).map(|i| at(f64::from(i) + 0.5) * strain / f64::from(steps)).sum();
     let plastic = std::f64::consts::PI * (whole - 0.5 * at(f64::from(steps)).powi(2));

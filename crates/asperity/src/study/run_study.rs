@@ -234,17 +234,12 @@ impl Study {
             let values = self.definition.overrides(&run.values).join(", ");
             let _ = write!(text, "\nfailed    {values}: {}", run.status);
         }
-        match self.promises_missed() {
-            0 => {}
-            1 => text.push_str(
-                "\nmissed    1 run states more error than its accuracy promises: promise_kept is false",
-            ),
-            missed => {
-                let _ = write!(
-                    text,
-                    "\nmissed    {missed} runs state more error than their accuracy promises: promise_kept is false"
-                );
-            }
+        let missed = self.promises_missed();
+        if missed > 0 {
+            let _ = write!(
+                text,
+                "\nmissed    {missed} (promise_kept is false: more error is stated than the accuracy promises)"
+            );
         }
         if let Some(column) = self.shown() {
             let numbers = || self.runs.iter().filter(|run| run.ok()).filter_map(|run| run.number(column));

@@ -341,7 +341,7 @@ mod tests {
         }
     }
 
-    /// What penetration and mesh hide is a larger share of a smaller depth, by a power of it.
+    /// The error that penetration and mesh hide is a larger share of a smaller depth, by a power of it.
     #[test]
     fn what_is_hidden_grows_towards_the_touch() {
         let hidden = Hidden { balanced: 0.003, even: 0.004 };

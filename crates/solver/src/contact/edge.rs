@@ -232,7 +232,8 @@ impl ContactEdge {
     ) -> EdgeContact {
         let mut out = EdgeContact::empty(parts);
         let slope = |xi: f64| context.tool.penetration(self.point(x, xi), context.tip).slope;
-        let ends = ends_of_touch(&touching).filter(|_| parts != touching).map(|ends| ends.map(slope));
+        let ends =
+            if parts == touching { None } else { ends_of_touch(&touching).map(|ends| ends.map(slope)) };
         let places = self.places(context, x);
         for [start, end] in parts.into_iter().flatten().filter(|[start, end]| end > start) {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));

@@ -201,14 +201,17 @@ mod tests {
     use crate::contact::tool::Tool;
     use crate::point::kinematics::Symmetry;
 
+    /// A tool at rest with its lowest point at `tip`, 0 before, in plane strain with a penalty of 2.
+    fn at_rest(tool: &Tool, tip: f64, friction: Friction) -> ContactContext<'_> {
+        let rubbing = Some(Rubbing { friction, tip_before: 0.0, holds: false });
+        ContactContext { tool, tip, penalty: 2.0, spring: 2.0, symmetry: Symmetry::PlaneStrain, rubbing }
+    }
+
     /// An edge along a plane, pressed by 0.01 and moved by `slide`, under a plane that stays.
     fn rubbed(friction: Friction, slide: f64) -> (ContactEdge, EdgeContact, EdgeSlip) {
         let place = |node: u32| [f64::from(node), 0.01];
         let edge = ContactEdge::new([0, 1], None, place, Symmetry::PlaneStrain);
-        let rubbing = Some(Rubbing { friction, tip_before: 0.0, holds: false });
-        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
-        let context =
-            ContactContext { tool: &Tool::Plane, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+        let context = at_rest(&Tool::Plane, 0.0, friction);
         let x = edge.reference.map(|[r, z]| [r + slide, z]);
         let contact = edge.integrate(&context, edge.touching(&context, &x), &x);
         (edge, contact, edge.slip_after(&context, &x).0)
@@ -238,10 +241,7 @@ mod tests {
     fn what_comes_to_touch_rubs_from_there_on() {
         let place = |node: u32| [f64::from(node), -0.01];
         let edge = ContactEdge::new([0, 1], None, place, Symmetry::PlaneStrain);
-        let rubbing = Some(Rubbing { friction: Friction::Sticking, tip_before: 0.0, holds: false });
-        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
-        let context =
-            ContactContext { tool: &Tool::Plane, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+        let context = at_rest(&Tool::Plane, 0.0, Friction::Sticking);
         let (slip, _) = edge.slip_after(&context, &edge.reference.map(|[r, z]| [r + 0.004, z + 0.04]));
         assert!(slip.iter().all(|slip| (slip - 0.003).abs() < 1e-15), "{slip:?}");
     }
@@ -252,10 +252,7 @@ mod tests {
     fn nodes_take_the_traction_where_it_is() {
         let (mut edge, ..) = rubbed(Friction::Sticking, 0.0);
         edge.slip = std::array::from_fn(|place| 0.004 * place as f64 / (SLIP_PLACES - 1) as f64);
-        let rubbing = Some(Rubbing { friction: Friction::Sticking, tip_before: 0.0, holds: false });
-        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
-        let context =
-            ContactContext { tool: &Tool::Plane, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+        let context = at_rest(&Tool::Plane, 0.0, Friction::Sticking);
         let force = edge.integrate(&context, edge.touching(&context, &edge.reference), &edge.reference).force;
         for (node, share) in [(0, 1.0 / 3.0), (1, 2.0 / 3.0)] {
             assert!((force[node][0] - 0.004 * share).abs() < 1e-15, "{force:?}");
@@ -269,11 +266,8 @@ mod tests {
         let tool = Tool::Cone { tan_slope: 0.5, tip_radius: 0.0 };
         let place = |node: u32| [1.0 + f64::from(node), 0.51 + 0.5 * f64::from(node)];
         let edge = ContactEdge::new([0, 1], None, place, Symmetry::PlaneStrain);
-        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
         let load = |friction: Friction, slide: f64| {
-            let rubbing = Some(Rubbing { friction, tip_before: 0.0, holds: false });
-            let context =
-                ContactContext { tool: &tool, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+            let context = at_rest(&tool, 0.0, friction);
             let x = edge.reference.map(|[r, z]| [r + slide, z + 0.5 * slide]);
             let contact = edge.integrate(&context, edge.touching(&context, &x), &x);
             let nodes: f64 = contact.force.iter().map(|force| force[1]).sum();
@@ -289,13 +283,10 @@ mod tests {
     /// the tool is gone.
     #[test]
     fn what_parts_loses_its_traction_along_the_way() {
-        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
         let (mut edge, ..) = rubbed(Friction::Sticking, 0.0);
         edge.slip = [0.002; SLIP_PLACES];
         let lost = |slide: f64, tip: f64| {
-            let rubbing = Some(Rubbing { friction: Friction::Sticking, tip_before: 0.0, holds: false });
-            let context =
-                ContactContext { tool: &Tool::Plane, tip, penalty, spring: penalty, symmetry, rubbing };
+            let context = at_rest(&Tool::Plane, tip, Friction::Sticking);
             let (slip, lost) = edge.slip_after(&context, &edge.reference.map(|[r, z]| [r + slide, z - 0.02]));
             assert_eq!(slip, [0.0; SLIP_PLACES]);
             lost
