@@ -169,3 +169,114 @@ fn a_stiffness_is_stated_with_its_share_of_the_companion() {
     let found = errors.unloading_stiffness.unwrap();
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
 }
+
+/// Before the first depth that counts a row has a bound of its own: what the companion moved its force by there,
+/// which is 0.02 + 0.03 ln h by its making. Source: that line.
+#[test]
+fn an_early_row_has_the_difference_at_its_own_depth() {
+    let run = cone();
+    let found = compared(&run, 1.0);
+    let mut judged = 0;
+    for (row, before) in found.rows.iter().zip(&run.rows).filter(|(row, _)| row.force > 0.0) {
+        let x = (before.depth / run.summary.peak_depth).ln();
+        let moved = (0.02 + 0.03 * x).abs();
+        if x < LEAST_COUNTED_DEPTH.ln() && moved > 0.1 {
+            assert!((row.force_error.unwrap() - moved).abs() < 1e-9, "{x}: {:?} {moved}", row.force_error);
+            judged += 1;
+        }
+    }
+    assert!(judged > 0);
+}
+
+/// The way out is a curve that is moved by the error of the residual depth: with F proportional to (h - h_r)^m
+/// its relative error is that of the peak and m dh (1/(h - h_r) - 1/(h_peak - h_r)); with 2 E* a = dF/dh that
+/// of the area has the power 2 (m - 1).
+#[test]
+fn a_row_of_the_way_out_is_moved_by_the_error_of_the_residual_depth() {
+    let mut run = cone();
+    let peak = run.summary.peak_depth;
+    let left_behind = 0.6 * peak;
+    let mut out = *last_loaded(&run.rows).unwrap();
+    let top = run.rows.len() - 1;
+    (out.phase, out.depth, out.force) = (Phase::Unload, 0.8 * peak, 0.3 * out.force);
+    run.rows.extend([out, CurveRow { depth: left_behind, force: 0.0, ..out }]);
+    run.summary.residual_depth = Some(left_behind);
+    let mut other = companion(&run, 1.0);
+    other.summary.residual_depth = Some(0.59 * peak);
+    let setting = setting(&run);
+    let found = extrapolate_and_bound(run, &other, setting);
+    let row = found.rows[top + 1];
+    let moved = found.summary.errors.residual_depth.unwrap() * (1.0 / 0.2 - 1.0 / 0.4);
+    let power = UNLOADING_EXPONENT;
+    for (error, at_peak, power) in [
+        (row.force_error, found.summary.errors.force, power),
+        (row.area_error, found.summary.errors.contact_area, 2.0 * (power - 1.0)),
+    ] {
+        let expected = at_peak + power * moved;
+        assert!((error.unwrap() / expected - 1.0).abs() < 1e-9, "{error:?} {expected}");
+    }
+    assert_eq!(found.rows[top + 2].force_error, None);
+}
+
+/// A companion that ends early says nothing of the rows beside the peak: they have what is stated of it.
+#[test]
+fn rows_beside_the_end_of_a_companion_have_the_bound_of_the_peak() {
+    let found = compared(&cone(), 0.92);
+    let (peak, errors) = (found.summary.peak_depth, found.summary.errors);
+    let beside = |row: &&CurveRow| row.depth > peak * (-HALF_SPAN_OF_ROW).exp() * 1.001;
+    assert!(found.rows.iter().filter(beside).all(|row| row.force_error == Some(errors.force)));
+    let before = |row: &&CurveRow| row.depth < 0.8 * peak && row.depth > LEAST_COUNTED_DEPTH * peak;
+    assert!(found.rows.iter().filter(before).any(|row| row.force_error < Some(errors.force)));
+}
+
+/// Transfers that take and give up count both, over the largest work.
+#[test]
+fn what_transfers_take_and_give_up_counts_both() {
+    let top = *last_loaded(&cone().rows).unwrap();
+    let row = |transfer_energy, external_work| CurveRow { transfer_energy, external_work, ..top };
+    assert_eq!(transferred(&[row(0.0, 1.0), row(1.0, 4.0), row(-0.5, 2.0)]), 2.5 / 4.0);
+}
+
+/// A curve that is moved to its force takes shares, cycles and residual depth with it.
+#[test]
+fn shares_and_cycles_move_with_the_force_that_is_met() {
+    let mut run = cone();
+    run.summary.residual_depth = Some(1e-6);
+    run.cycles = vec![crate::record::rows::CycleRow {
+        cycle: 0,
+        peak_increment: 0,
+        end_increment: 0,
+        peak_depth: 5e-6,
+        peak_force: 3.0,
+        residual_depth: 1e-6,
+        work_in: 1.0,
+        work_out: 0.1,
+        hysteresis: 0.9,
+        plastic_work: 0.9,
+    }];
+    let top = *last_loaded(&run.rows).unwrap();
+    run.asperities = vec![AsperityRow {
+        increment: run.rows.len() - 1,
+        phase: Phase::Load,
+        depth: top.depth,
+        asperity: 0,
+        force: top.force,
+        contact_area: top.contact_area,
+        contact_left: 0.0,
+        contact_right: top.contact_radius,
+        max_pressure: top.mean_pressure,
+    }];
+    let met = rescale_to_force(run, 1.02 * top.force, Symmetry::Axisymmetric);
+    let moved = last_loaded(&met.rows).unwrap();
+    let (deeper, wider) = (moved.depth / top.depth, moved.contact_area / top.contact_area);
+    assert!(deeper > 1.005 && wider > 1.005, "{deeper} {wider}");
+    let share = &met.asperities[0];
+    let alike = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+    alike(share.force, moved.force);
+    alike(share.depth, moved.depth);
+    alike(share.contact_area, moved.contact_area);
+    alike(met.cycles[0].peak_force, 3.0 * 1.02);
+    alike(met.cycles[0].peak_depth, 5e-6 * deeper);
+    alike(met.cycles[0].residual_depth, 1e-6 * deeper);
+    alike(met.summary.residual_depth.unwrap(), 1e-6 * deeper);
+}
