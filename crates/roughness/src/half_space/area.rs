@@ -124,6 +124,25 @@ mod tests {
         assert!((PI * 900.0 / (n * n) as f64 / whole.ratio - 1.0).abs() < 0.01);
     }
 
+    /// Of the twelve sides of three pixels in a row, beside a point that was not measured: eleven are seen. The
+    /// left end lies at the side of the map.
+    #[test]
+    fn sides_towards_holes_are_counted() {
+        let hidden = |periodic: bool, hole: usize| {
+            let mut heights = vec![1e-6; 5 * 4];
+            heights[hole] = f64::NAN;
+            let map = HeightMap::new(5, 4, [1e-6; 2], heights).unwrap().with_periodic(periodic);
+            let pressures: Vec<f32> = (0..20).map(|i| f32::from(u8::from((10..13).contains(&i)))).collect();
+            Rim::hidden(&map, &pressures)
+        };
+        for hole in [5, 6, 7, 13, 15, 16, 17] {
+            assert_eq!(hidden(false, hole), 11.0 / 10.0, "{hole}");
+            assert_eq!(hidden(true, hole), 12.0 / 11.0, "{hole}");
+        }
+        assert_eq!((hidden(false, 14), hidden(true, 14)), (1.0, 12.0 / 11.0));
+        assert_eq!((hidden(false, 18), hidden(true, 9)), (1.0, 1.0));
+    }
+
     /// Against the definition, on random maps: two pixels under pressure are of one patch if a chain of
     /// touching neighbours joins them, over sides, corners and the edges of a periodic map.
     #[test]

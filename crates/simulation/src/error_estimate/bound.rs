@@ -310,6 +310,17 @@ mod tests {
         assert!((line.correction(0.0) + 0.01).abs() < 1e-3 && (line.correction(-1.0) - 0.01).abs() < 1e-3);
     }
 
+    /// A depth decides the force of an axisymmetric contact by its square: run and companion that agree may hide
+    /// twice as much as in plane strain.
+    #[test]
+    fn what_is_hidden_of_a_force_goes_by_the_lengths_of_the_contact() {
+        let [round, flat] = [Symmetry::Axisymmetric, Symmetry::PlaneStrain].map(|symmetry| {
+            let setting = Setting { penetration: 0.004, symmetry, ..SETTING };
+            difference(setting.force(1.0), |_| 0.0).near_peak()
+        });
+        assert!(flat > 0.0 && (round / flat - 2.0).abs() < 1e-9, "{round} {flat}");
+    }
+
     /// Onset of another contact between 0.4 and 0.5 of the depth, where run and companion differ by 85 %.
     #[test]
     fn an_onset_stays_out_of_the_bound_at_the_peak() {

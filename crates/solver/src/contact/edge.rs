@@ -320,6 +320,36 @@ fn quadratic_shape(xi: f64) -> [f64; 3] {
 mod tests {
     use super::*;
 
+    /// Beside the axis of a ball, where its outline is inclined and curved. The tolerance is that of central
+    /// differences over 1e-5 of numbers of the order of 1.
+    #[test]
+    fn stiffness_is_the_derivative_of_force_and_force_that_of_energy() {
+        let tool = Tool::Sphere { radius: 1.0 };
+        for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
+            let place = |node: u32| [[0.5, 0.15], [0.7, 0.32], [0.61, 0.24]][node as usize];
+            let edge = ContactEdge::new([0, 1], Some(2), place, symmetry);
+            let context =
+                ContactContext { tool: &tool, tip: 0.0, penalty: 2.0, spring: 2.0, symmetry, rubbing: None };
+            let at = |x: &[[f64; 2]; 3]| edge.integrate(&context, WHOLE, x);
+            let here = at(&edge.reference);
+            assert!(here.energy > 0.0 && edge.touching(&context, &edge.reference) == WHOLE);
+            for (b, j) in (0..3).flat_map(|b| [(b, 0), (b, 1)]) {
+                let [less, more] = [-1e-5, 1e-5].map(|by| {
+                    let mut x = edge.reference;
+                    x[b][j] += by;
+                    at(&x)
+                });
+                let by_energy = (more.energy - less.energy) / 2e-5;
+                assert!((by_energy - here.force[b][j]).abs() < 1e-8, "{b} {j}: {by_energy} {:?}", here.force);
+                for (a, i) in (0..3).flat_map(|a| [(a, 0), (a, 1)]) {
+                    let by_force = (more.force[a][i] - less.force[a][i]) / 2e-5;
+                    let found = here.stiffness[a][i][b][j];
+                    assert!((by_force - found).abs() < 1e-8, "{a} {i} by {b} {j}: {by_force} {found}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn an_edge_of_twice_the_length_has_twice_the_area_and_a_ring_four_times() {
         for (symmetry, stretch) in [(Symmetry::PlaneStrain, 2.0), (Symmetry::Axisymmetric, 4.0)] {

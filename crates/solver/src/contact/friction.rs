@@ -225,6 +225,8 @@ mod tests {
             let (_, stuck, slip) = rubbed(Friction::Coulomb(0.3), sign * 0.002);
             let force: f64 = stuck.force.iter().map(|f| f[0]).sum();
             assert!((force - sign * 0.004).abs() < 1e-15 && stuck.friction_work == 0.0);
+            // of the springs across, 0.02 x 0.01 / 2, and along
+            assert!((stuck.penalty_energy - 1e-4 - 0.5 * 0.004 * 0.002).abs() < 1e-18);
             assert!(slip.iter().all(|s| (s - sign * 0.002).abs() < 1e-15));
             let (_, slipped, slip) = rubbed(Friction::Coulomb(0.3), sign * 0.01);
             let force: f64 = slipped.force.iter().map(|f| f[0]).sum();
@@ -309,5 +311,7 @@ mod tests {
         carry_slip(&[old], &mut new);
         assert!((new[0].slip[0] - 0.2).abs() < 1e-15 && (new[0].slip[8] - 0.6).abs() < 1e-15);
         assert_eq!(new[1].slip, [0.0; SLIP_PLACES]);
+        let pieces = [[([0.0, 0.0], 0.0), ([4.0, 0.0], 0.4)], [([2.9, 0.5], 1.0), ([3.4, 0.5], 2.0)]];
+        assert!((nearest(&pieces, [3.0, 0.2]) - 0.3).abs() < 1e-15);
     }
 }

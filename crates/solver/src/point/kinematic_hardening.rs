@@ -238,6 +238,27 @@ mod tests {
         }
     }
 
+    /// A point that has flowed lies on its yield surface, wherever that has moved and however it has grown.
+    #[test]
+    fn a_point_that_flowed_lies_on_its_yield_surface() {
+        let law = HardeningLaw::Swift;
+        let curve = Hardening { law, yield_stress: 1.0, exponent: 0.2, youngs_modulus: 500.0 };
+        for share in [0.0, 0.4, 1.0] {
+            let metal = Metal {
+                elastic: Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 },
+                hardening: Some(curve.into()),
+                kinematic_share: share,
+                stress_measure: asperity_material::StressMeasure::Kirchhoff,
+            };
+            let increment = [0.03, 0.01, 0.0, -0.02, -0.01];
+            let (found, memory) =
+                update(&metal, &metal.virgin(), &History::default(), &increment, Tangent::None).unwrap();
+            assert!(found.plastic && found.state.yield_stress > 1.1);
+            let function = yield_function(&metal, &found.state, Some(&memory));
+            assert!(function.abs() < 1e-9, "{share}: {function}");
+        }
+    }
+
     /// Shear pulls along one diagonal and pushes along the other.
     #[test]
     fn the_tensile_part_of_shear_is_that_along_its_diagonal() {
