@@ -47,7 +47,14 @@ fn serde_is_put_into_plain_words() {
     assert_eq!(message, "unknown key `force`");
     assert!(help.unwrap().contains("load.pressure = force / area"));
     assert!(reword("unknown field `contact`, expected `tool`").0.contains("unknown key"));
-    assert_eq!(reword("missing field `tool`").0, "`tool` is missing");
+    for (field, example) in [
+        ("tool", "for example [tool] with shape = \"plane\""),
+        ("poissons_ratio", "for example poissons_ratio = 0.3"),
+        ("closure", "for example closure = \"all\""),
+    ] {
+        let (message, help) = reword(&format!("missing field `{field}`"));
+        assert_eq!((message, help), (format!("`{field}` is missing"), Some(example.into())));
+    }
     assert_eq!(
         reword("invalid type: string \"x\", expected f64").0,
         "invalid type: string \"x\", expected a number without quotes"

@@ -100,6 +100,9 @@ impl Dimension {
                     ("kp", 9.80665),
                     ("mgf", 9.80665e-6),
                     ("lbf", POUND),
+                    ("мкН", 1e-6),
+                    ("мН", 1e-3),
+                    ("Н", 1.0),
                 ]
             }
             Dimension::Stress => &[

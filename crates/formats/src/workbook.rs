@@ -45,7 +45,9 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     let mut full = sheets.iter().filter(|sheet| most > 0 && 2 * sheet.numbers >= most);
     let is_other = |sheet: &Sheet| {
         let name = sheet.name.to_lowercase();
-        OTHERS.iter().any(|other| name.contains(other))
+        // places of points beside their heights
+        let is_place = ["x", "y"].contains(&name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or(""));
+        is_place || OTHERS.iter().any(|other| name.contains(other))
     };
     let first = full.clone().next();
     let sheet = full.find(|sheet| !is_other(sheet)).or(first);
@@ -276,6 +278,7 @@ mod tests {
             (&[("a", words.as_str())], "0,25\t1.5\n"),
             (&[("Intensity", date.as_str()), ("Height", percent.as_str())], "5.0%\t300.0\n"),
             (&[("Results", percent.as_str())], "5.0%\t300.0\n"),
+            (&[("X", words.as_str()), ("Y (mm)", words.as_str()), ("Z", percent.as_str())], "5.0%\t300.0\n"),
         ] {
             assert_eq!(text(&book(sheets)).unwrap().0, want, "{sheets:?}");
         }

@@ -1,5 +1,6 @@
 //! The messages of serde in the words of a scene, and the known word nearest to an unknown one.
 
+use crate::scenes;
 use strsim::osa_distance as distance;
 
 /// The candidate that `word` was probably meant to be.
@@ -32,6 +33,20 @@ const EXPLAINED: [(&str, &str, &str, &str); 2] = [
     ),
 ];
 
+/// The line of a scene to begin with that gives the key `field`, or the first of the table of that name.
+fn example(field: &str) -> Option<String> {
+    let first = [scenes::SINGLE_ASPERITY, scenes::SURFACE];
+    first.into_iter().chain(scenes::ALL.iter().map(|(_, text)| *text)).find_map(|text| {
+        let lines = || text.lines().map(|line| line.split('#').next().unwrap_or(line).trim());
+        let key = lines().find(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == field));
+        let table = || {
+            let mut rest = lines().skip_while(|line| line.trim_matches(['[', ']']) != field);
+            Some(format!("{} with {}", rest.next()?, rest.next()?))
+        };
+        key.map(str::to_string).or_else(table)
+    })
+}
+
 /// A message of serde in the words of a scene, and help where there is some.
 pub fn reword(message: &str) -> (String, Option<String>) {
     // serde quotes names in backticks: `unknown field `colour`, expected one of `symmetry`, `accuracy``
@@ -55,7 +70,10 @@ pub fn reword(message: &str) -> (String, Option<String>) {
             };
             (format!("unknown {noun} `{word}`"), Some(help))
         }
-        (None, [field]) if message.starts_with("missing field") => (format!("`{field}` is missing"), None),
+        (None, [field]) if message.starts_with("missing field") => {
+            let help = example(field).map(|lines| format!("for example {lines}"));
+            (format!("`{field}` is missing"), help)
+        }
         _ => {
             let message = message
                 .replace("expected f64", "expected a number without quotes")

@@ -2,15 +2,33 @@
 
 use super::TextError;
 use crate::workbook;
-use encoding_rs::{SHIFT_JIS, WINDOWS_1252};
+use chardetng::EncodingDetector;
+use encoding_rs::{
+    BIG5, EUC_JP, EUC_KR, Encoding, GBK, ISO_8859_2, KOI8_U, SHIFT_JIS, WINDOWS_1250, WINDOWS_1251,
+    WINDOWS_1252,
+};
 use std::borrow::Cow;
 
 /// Bytes that are looked at to tell UTF-16 without a mark, and text from other data.
 const LOOKED_AT: usize = 1 << 16;
 
+/// Lines beyond ASCII that tell an encoding.
+const TELLING_LINES: usize = 1000;
+
+/// °, ±, ², ³, µ, · and dashes of Windows, Å.
+const SIGNS: &[u8] = b"\xb0\xb1\xb2\xb3\xb5\xb7\x96\x97\xc5";
+
+/// Encodings whose usual names are not those of the standard of the web.
+const NAMES: [(&Encoding, &str); 4] = [
+    (SHIFT_JIS, "Shift-JIS"),
+    (WINDOWS_1250, "Windows-1250"),
+    (WINDOWS_1251, "Windows-1251"),
+    (WINDOWS_1252, "Windows-1252"),
+];
+
 /// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
-/// UTF-8 where it is that, else Shift-JIS where it can only be that, or Windows-1252; of a workbook the
-/// sheet with a table. Lines end in `\n` or `\r\n`.
+/// UTF-8 where it is that, else the encoding of Windows that its letters tell; of a workbook the sheet with a
+/// table. Lines end in `\n` or `\r\n`.
 ///
 /// # Errors
 /// Bytes that are no text.
@@ -63,22 +81,34 @@ fn decode_characters(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextE
     }
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok((text.into(), "UTF-8")),
-        Err(_) => Ok(japanese(bytes).map_or_else(
-            || (WINDOWS_1252.decode_without_bom_handling(bytes).0, "Windows-1252"),
-            |text| (text, "Shift-JIS"),
-        )),
+        Err(_) => Ok(national(bytes)),
     }
 }
 
-/// The text of `bytes` in Shift-JIS, where two kana or kanji stand in a row and most of these begin with a
-/// byte that is no letter of Windows-1252: letters with accents hardly ever make such pairs.
-fn japanese(bytes: &[u8]) -> Option<Cow<'_, str>> {
-    let text = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes)?;
-    let is_kana_or_kanji = |c: &char| matches!(*c, '\u{3041}'..='\u{30fe}' | '\u{4e00}'..='\u{9fff}');
-    let letters: Vec<bool> = text.chars().filter(|c| !c.is_ascii()).map(|c| is_kana_or_kanji(&c)).collect();
-    let in_a_row = letters.windows(2).filter(|two| two[0] && two[1]).count();
-    let leads = bytes.iter().filter(|byte| (0x81..=0x9f).contains(*byte)).count();
-    (in_a_row > 0 && 2 * leads >= letters.len()).then_some(text)
+/// The text of `bytes` that are not UTF-8, and the name of its encoding: told by its letters, with Windows-1252
+/// for the west of Europe and where signs of units alone are beyond ASCII.
+fn national(bytes: &[u8]) -> (Cow<'_, str>, &'static str) {
+    let mut detector = EncodingDetector::new();
+    for line in bytes.split_inclusive(|b| *b == b'\n').filter(|line| !line.is_ascii()).take(TELLING_LINES) {
+        detector.feed(&without_signs(line), false);
+    }
+    detector.feed(&[], true);
+    let encoding = match detector.guess(None, false) {
+        // which has the letters of the other, and the sign of micro
+        e if e == ISO_8859_2 => WINDOWS_1250,
+        e if [SHIFT_JIS, EUC_JP, GBK, BIG5, EUC_KR, WINDOWS_1250, WINDOWS_1251, KOI8_U].contains(&e) => e,
+        _ => WINDOWS_1252,
+    };
+    let name = NAMES.iter().find(|(other, _)| *other == encoding).map_or(encoding.name(), |(_, name)| name);
+    (encoding.decode_without_bom_handling(bytes).0, name)
+}
+
+/// The bytes of a `line` without the signs of units and numbers that stand between characters of ASCII, as µ, ° and ± of
+/// Windows do: they say nothing of a language, and look like parts of Chinese words.
+fn without_signs(line: &[u8]) -> Vec<u8> {
+    let ascii = |at: Option<usize>| at.and_then(|at| line.get(at)).is_none_or(u8::is_ascii);
+    let is_sign = |at: usize| SIGNS.contains(&line[at]) && ascii(at.checked_sub(1)) && ascii(Some(at + 1));
+    (0..line.len()).filter(|at| !is_sign(*at)).map(|at| line[at]).collect()
 }
 
 fn no_text(sample: &[u8], is_strange: impl Fn(u8) -> bool) -> TextError {

@@ -31,6 +31,11 @@ fn size_pixels_and_units_in_words_are_used() {
         "# Canal : Topographie\n# Largeur : 3,00 µm\n# Hauteur : 1,000 µm\n# Unités : nm\n",
         "# Kanál: Topografie\n# Šířka: 3.00 µm\n# Výška: 1.000 µm\n# Jednotky hodnot: nm\n",
         "# チャンネル: Topography\n# ガガ: 3.00 µm\n# ギギ: 1.000 µm\n# ググ: nm\n",
+        "Szerokość: 3,00 µm\nWysokość: 1,000 µm\nJednostka: nm\n",
+        "Ширина: 3,00 мкм\nВысота: 1,000 мкм\nЕдиницы: нм\n",
+        "Bredd: 3,00 µm\nHöjd: 1,000 µm\nEnhet: nm\n",
+        "Breedte: 3,00 µm\nHoogte: 1,000 µm\nEenheid: nm\n",
+        "Width: 3.00(um)\nHeight: 1.000(um)\nStart of Data: (nm)\n",
         // key = value
         "x-length = 3\ny-length = 1\nx-unit = µm\nz-unit = nm\n",
         "pixel size = 1 um x 0.5 um\nheight unit = nm\n",
