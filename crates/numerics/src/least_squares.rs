@@ -1,5 +1,6 @@
 //! Linear least squares: weighted with a few columns, and with columns that are added one by one.
 
+use crate::vectors::dot;
 use nalgebra::{SMatrix, SVector};
 
 /// A pivot below this share of its diagonal entry is rounding: the columns depend on each other.
@@ -58,6 +59,8 @@ pub fn powers<const N: usize>(u: f64) -> [f64; N] {
 
 /// A column of which a smaller share than this is left beside the earlier ones is rounding.
 const ROUNDING_NORM: f64 = 1e-12;
+/// What is left of a sum of squares is orthogonal to rounding above this share.
+const SMALL_REST: f64 = 0.01;
 
 /// A least-squares problem to which columns are added one after the other, each made orthogonal to those
 /// before it: a column that depends on them is refused, and what an added one gains is known without solving
@@ -81,15 +84,23 @@ impl Columns {
 
     /// The part of `y` that the columns do not explain.
     pub fn remainder(&self, y: &[f64]) -> Vec<f64> {
-        let mut rest = y.to_vec();
-        // twice: the first pass leaves rounding of the size of what it took away
-        for _ in 0..2 {
-            for q in &self.orthonormal {
-                let along = dot(q, &rest);
-                rest.iter_mut().zip(q).for_each(|(r, q)| *r -= along * q);
+        self.reduced(y.to_vec(), 0)
+    }
+
+    /// The part of `rest` that the columns from the index `from` on do not explain.
+    fn reduced(&self, mut rest: Vec<f64>, from: usize) -> Vec<f64> {
+        let mut size = dot(&rest, &rest);
+        loop {
+            for q in &self.orthonormal[from..] {
+                take_away(&mut rest, q);
             }
+            let left = dot(&rest, &rest);
+            // a pass leaves rounding of the size of what it took away
+            if left.is_nan() || left >= SMALL_REST * size {
+                return rest;
+            }
+            size = left;
         }
-        rest
     }
 
     /// The fit of `y`.
@@ -97,16 +108,19 @@ impl Columns {
         self.remainder(y).iter().zip(y).map(|(rest, y)| y - rest).collect()
     }
 
-    /// Share of the sum of squares of `column` that the columns do not explain; 0 of a column of zeros.
-    pub fn independence(&self, column: &[f64]) -> f64 {
-        let rest = self.remainder(column);
-        let all = dot(column, column);
-        if all > 0.0 { dot(&rest, &rest) / all } else { 0.0 }
-    }
-
     /// Adds `column` if more than the share `least` of its sum of squares is independent of the others.
     pub fn add(&mut self, column: Vec<f64>, least: f64) -> bool {
-        let mut rest = self.remainder(&column);
+        let rest = self.remainder(&column);
+        self.add_rest(column, rest, least)
+    }
+
+    /// The same where `remainder` is what the first `known` columns leave of it.
+    pub fn add_beyond(&mut self, known: usize, column: &[f64], remainder: &[f64], least: f64) -> bool {
+        let rest = self.reduced(remainder.to_vec(), known);
+        self.add_rest(column.to_vec(), rest, least)
+    }
+
+    fn add_rest(&mut self, column: Vec<f64>, mut rest: Vec<f64>, least: f64) -> bool {
         let (left, all) = (dot(&rest, &rest), dot(&column, &column));
         if left.is_nan() || left <= least.max(ROUNDING_NORM) * all {
             return false;
@@ -115,17 +129,6 @@ impl Columns {
         self.orthonormal.push(rest);
         self.own.push(column);
         true
-    }
-
-    /// Mean square of the error with which `y` of each row is predicted by the fit to all other rows (Allen's
-    /// PRESS): unlike the residual, it grows again where columns fit what is chance.
-    pub fn left_out_error(&self, y: &[f64]) -> f64 {
-        let rest = self.remainder(y);
-        let error = |i: usize| {
-            let leverage: f64 = self.orthonormal.iter().map(|q| q[i] * q[i]).sum();
-            rest[i] / (1.0 - leverage).max(1e-3)
-        };
-        (0..y.len()).map(|i| error(i).powi(2)).sum::<f64>() / y.len() as f64
     }
 
     /// The part that the columns from the index `from` on contribute to the fit of `y`.
@@ -141,19 +144,38 @@ impl Columns {
     }
 }
 
-/// Sums that a product of columns is made of side by side.
-const SUMS: usize = 8;
+/// How well a fit predicts `y`, kept up while columns are added to it.
+#[derive(Clone, Debug)]
+pub struct LeftOut {
+    rest: Vec<f64>,
+    leverage: Vec<f64>,
+    columns: usize,
+}
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; SUMS];
-    let (a, b) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
+impl LeftOut {
+    /// That of `y` without a column.
+    pub fn new(y: &[f64]) -> LeftOut {
+        LeftOut { rest: y.to_vec(), leverage: vec![0.0; y.len()], columns: 0 }
     }
-    sums.iter().sum::<f64>() + rest
+
+    /// Mean square of the error with which each row is predicted by the fit of `columns` to all other rows
+    /// (Allen's PRESS): unlike the residual, it grows again where columns fit what is chance. The first ones
+    /// of `columns` are those of the last call.
+    pub fn error(&mut self, columns: &Columns) -> f64 {
+        for q in &columns.orthonormal[self.columns..] {
+            take_away(&mut self.rest, q);
+            self.leverage.iter_mut().zip(q).for_each(|(sum, q)| *sum += q * q);
+        }
+        self.columns = columns.count();
+        let error = |(rest, leverage): (&f64, &f64)| (rest / (1.0 - leverage).max(1e-3)).powi(2);
+        self.rest.iter().zip(&self.leverage).map(error).sum::<f64>() / self.rest.len() as f64
+    }
+}
+
+/// Takes from `rest` what lies along the column `q` of length 1.
+fn take_away(rest: &mut [f64], q: &[f64]) {
+    let along = dot(q, rest);
+    rest.iter_mut().zip(q).for_each(|(r, q)| *r -= along * q);
 }
 
 #[cfg(test)]
@@ -176,8 +198,9 @@ mod tests {
         for (got, expected) in periodic.iter().zip(column(|x| 0.3 * x.cos() + 0.2 * x.sin())) {
             assert!((got - expected).abs() < 1e-12);
         }
-        assert!(columns.left_out_error(&y) < 1e-24 && columns.count() == 4);
-        assert!(columns.independence(&column(|x| 1.0 + x)) < 1e-20);
+        assert!(LeftOut::new(&y).error(&columns) < 1e-24 && columns.count() == 4);
+        let rest = columns.remainder(&column(|x| 1.0 + x));
+        assert!(dot(&rest, &rest) < 1e-20);
     }
 
     #[test]
@@ -191,8 +214,12 @@ mod tests {
         };
         let expected = (0..40).map(|i| fit(i).powi(2)).sum::<f64>() / 40.0;
         let mut columns = Columns::new();
+        let mut left_out = LeftOut::new(&y);
         columns.add(column(|_| 1.0), 0.0);
+        let constant = left_out.error(&columns);
         columns.add(column(|x| x), 0.0);
-        assert!((columns.left_out_error(&y) / expected - 1.0).abs() < 1e-9);
+        let line = left_out.error(&columns);
+        assert!((line / expected - 1.0).abs() < 1e-9 && line < constant);
+        assert_eq!(line, LeftOut::new(&y).error(&columns));
     }
 }

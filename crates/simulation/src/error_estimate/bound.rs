@@ -310,8 +310,8 @@ mod tests {
         assert!((line.correction(0.0) + 0.01).abs() < 1e-3 && (line.correction(-1.0) - 0.01).abs() < 1e-3);
     }
 
-    /// A depth decides the force of an axisymmetric contact by its square: run and companion that agree may hide
-    /// twice as much as in plane strain.
+    /// A depth decides the force of an axisymmetric contact by its square: run and companion that agree may
+    /// hide twice as much as in plane strain.
     #[test]
     fn what_is_hidden_of_a_force_goes_by_the_lengths_of_the_contact() {
         let [round, flat] = [Symmetry::Axisymmetric, Symmetry::PlaneStrain].map(|symmetry| {

@@ -170,8 +170,8 @@ fn a_stiffness_is_stated_with_its_share_of_the_companion() {
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
 }
 
-/// Before the first depth that counts a row has a bound of its own: what the companion moved its force by there,
-/// which is 0.02 + 0.03 ln h by its making. Source: that line.
+/// Before the first depth that counts a row has a bound of its own: what the companion moved its force by
+/// there, which is 0.02 + 0.03 ln h by its making. Source: that line.
 #[test]
 fn an_early_row_has_the_difference_at_its_own_depth() {
     let run = cone();
@@ -188,9 +188,9 @@ fn an_early_row_has_the_difference_at_its_own_depth() {
     assert!(judged > 0);
 }
 
-/// The way out is a curve that is moved by the error of the residual depth: with F proportional to (h - h_r)^m
-/// its relative error is that of the peak and m dh (1/(h - h_r) - 1/(h_peak - h_r)); with 2 E* a = dF/dh that
-/// of the area has the power 2 (m - 1).
+/// The way out is a curve that is moved by the error of the residual depth: with F ∝ (h - h_r)^m its relative
+/// error is that of the peak and m dh (1/(h - h_r) - 1/(h_peak - h_r)); with 2 E* a = dF/dh that of the area
+/// has the power 2 (m - 1).
 #[test]
 fn a_row_of_the_way_out_is_moved_by_the_error_of_the_residual_depth() {
     let mut run = cone();

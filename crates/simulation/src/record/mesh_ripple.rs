@@ -18,7 +18,8 @@
 
 use crate::fitted::FITTED;
 use crate::record::rows::{AsperityRow, CurveRow};
-use asperity_numerics::least_squares::Columns;
+use asperity_numerics::least_squares::{Columns, LeftOut};
+use asperity_numerics::vectors::dot;
 use asperity_solver::contact::edge::{ContactEdge, EdgeContact};
 use asperity_solver::point::kinematics::Symmetry;
 use std::f64::consts::TAU;
@@ -217,23 +218,28 @@ fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
     let mut fits: Vec<(f64, Vec<f64>)> = Vec::new();
     for intervals in 1..=most {
         let smooth = spline(x, intervals);
-        without = without.min(smooth.left_out_error(y));
-        let is_apart = |(_, column): &(i32, Vec<f64>)| smooth.independence(column) > fitted.apart_from_spline;
-        let apart: Vec<Vec<bool>> =
-            waves.iter().map(|columns| columns.iter().map(is_apart).collect()).collect();
+        let mut of_spline = LeftOut::new(y);
+        without = without.min(of_spline.error(&smooth));
+        // what the spline leaves of the columns that are apart from it
+        let apart = |(own, column): &(i32, Vec<f64>)| {
+            let rest = smooth.remainder(column);
+            let share = dot(&rest, &rest) / dot(column, column);
+            (share > fitted.apart_from_spline).then(|| (*own, column.clone(), rest))
+        };
+        let waves: Vec<Vec<_>> =
+            waves.iter().map(|columns| columns.iter().filter_map(apart).collect()).collect();
         for power in 0..=HIGHEST_POWER {
             let mut fit = smooth.clone();
-            for (columns, apart) in waves.iter().zip(&apart) {
-                for ((own, column), apart) in columns.iter().zip(apart) {
-                    if *apart && *own <= power {
-                        fit.add(column.clone(), fitted.apart);
-                    }
+            let mut left_out = of_spline.clone();
+            for columns in &waves {
+                for (_, column, rest) in columns.iter().filter(|(own, ..)| *own <= power) {
+                    fit.add_beyond(smooth.count(), column, rest, fitted.apart);
                 }
                 if x.len() < fit.count() + FREE_ROWS {
                     break;
                 }
                 if fit.count() > smooth.count() {
-                    fits.push((fit.left_out_error(y), fit.contribution(y, smooth.count())));
+                    fits.push((left_out.error(&fit), fit.contribution(y, smooth.count())));
                 }
             }
         }
