@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 if TYPE_CHECKING:
-    from asperity.keys import RoughMaterialTable
+    from asperity.keys import CurveTable, FitTable, RoughMaterialTable
 
 SCENE: dict[str, Any] = {
     "symmetry": "axisymmetric",
@@ -351,8 +351,12 @@ def test_progress_is_told_and_python_runs_on() -> None:
 
 
 def test_a_metal_is_identified_from_two_cones(tmp_path: pathlib.Path) -> None:
-    cone = {"features": {"loading_curvature": "13.602 GPa"}, "noise": "2 %"}
-    fit: dict[str, Any] = {
+    cone: CurveTable = {
+        "features": {"loading_curvature": "13.602 GPa"},
+        "noise": "2 %",
+        "tool": {"shape": "cone", "half_apex_deg": 60},
+    }
+    fit: FitTable = {
         "accuracy": "draft",
         "samples": 50,
         "material": {
@@ -362,7 +366,7 @@ def test_a_metal_is_identified_from_two_cones(tmp_path: pathlib.Path) -> None:
             "hardening_exponent": [0.0, 0.5],
             "hardening_law": "swift",
         },
-        "curve": [{**cone, "tool": {"shape": "cone", "half_apex_deg": 60}}],
+        "curve": [cone],
     }
     found = asperity.identify(fit, out=tmp_path)
     stress = found.parameters["yield_stress"]
@@ -411,7 +415,7 @@ def test_a_wrong_name_is_told_those_like_it_and_a_wrong_scene_where_it_goes() ->
         asperity.crush(rough)  # type: ignore[arg-type]
     with pytest.raises(asperity.InputError, match="crush"):
         asperity.press(asperity.Scene(**SCENE))
-    wrong = {"material": SCENE["material"], "curve": [{"depth_um": [0, 1], "force_N": [0]}]}
+    wrong: FitTable = {"material": SCENE["material"], "curve": [{"depth_um": [0, 1], "force_N": [0]}]}
     with pytest.raises(asperity.InputError, match="go together"):
         asperity.identify(wrong)
 

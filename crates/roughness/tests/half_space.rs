@@ -127,8 +127,8 @@ fn a_flattened_surface_is_lower_by_its_residual_displacement() {
     assert_eq!(pressed(None).0, 0.0);
 }
 
-/// Grooves of so many waves along the two sides, seen from this side, under this share of the load that closes
-/// them.
+/// Grooves of so many waves along the two sides, or their image in a mirror, and the load that is this share
+/// of the one that closes them.
 fn grooves(waves: [f64; 2], share: f64, mirrored: bool) -> (Surface, f64) {
     let n = 96;
     let length = n as f64 / waves[0].hypot(waves[1]);

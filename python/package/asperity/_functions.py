@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._asperity import RoughScene, Scene
-    from .keys import RoughTable, SceneTable, SweepTable
+    from .keys import FitTable, RoughTable, SceneTable, SweepTable
 
     PathLike = str | os.PathLike[str]
     PixelSize = float | tuple[float, float]
@@ -353,7 +353,7 @@ def _with_files(curves: Any, folder: str) -> Any:
 
 
 def identify(
-    fit: Mapping[str, Any] | PathLike,
+    fit: FitTable | PathLike,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
     out: PathLike | None = None,

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypedDict
 
+from numpy.typing import ArrayLike
+
 
 class AsperityTable(TypedDict, total=False):
     """One asperity as written: a cone (`height`, `slope_deg`, …), a sphere (`radius`) or a measured outline
@@ -767,6 +769,12 @@ class CurveTable(TypedDict, total=False):
 
     unknown: Sequence[Literal["contact_depth", "machine_compliance", "tip_radius", "friction"]]
     """Further unknowns of this measurement."""
+
+    depth_um: ArrayLike
+    """Depths, um, in the place of `file`; beside `force_N`."""
+
+    force_N: ArrayLike
+    """Forces, N, in the place of `file`; beside `depth_um`."""
 
 
 class FitMaterialTable(TypedDict, total=False):

@@ -15,8 +15,8 @@ const LOOKED_AT: usize = 1 << 16;
 /// Lines beyond ASCII that tell an encoding.
 const TELLING_LINES: usize = 1000;
 
-/// °, ±, ², ³, µ, · and dashes of Windows, Å.
-const SIGNS: &[u8] = b"\xb0\xb1\xb2\xb3\xb5\xb7\x96\x97\xc5";
+/// °, ±, ², ³, µ, ·, «, », dashes and the space that does not break of Windows, Å.
+const SIGNS: &[u8] = b"\xb0\xb1\xb2\xb3\xb5\xb7\xab\xbb\x96\x97\xa0\xc5";
 
 /// Encodings whose usual names are not those of the standard of the web.
 const NAMES: [(&Encoding, &str); 4] = [
@@ -85,8 +85,8 @@ fn decode_characters(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextE
     }
 }
 
-/// The text of `bytes` that are not UTF-8, and the name of its encoding: told by its letters, with Windows-1252
-/// for the west of Europe and where signs of units alone are beyond ASCII.
+/// The text of `bytes` that are not UTF-8, and the name of its encoding: told by its letters, with
+/// Windows-1252 for the west of Europe and where signs of units alone are beyond ASCII.
 fn national(bytes: &[u8]) -> (Cow<'_, str>, &'static str) {
     let mut detector = EncodingDetector::new();
     for line in bytes.split_inclusive(|b| *b == b'\n').filter(|line| !line.is_ascii()).take(TELLING_LINES) {
@@ -103,12 +103,11 @@ fn national(bytes: &[u8]) -> (Cow<'_, str>, &'static str) {
     (encoding.decode_without_bom_handling(bytes).0, name)
 }
 
-/// The bytes of a `line` without the signs of units and numbers that stand between characters of ASCII, as µ, ° and ± of
-/// Windows do: they say nothing of a language, and look like parts of Chinese words.
+/// The bytes of a `line` without the signs of units and numbers that stand among characters of ASCII, as µ, °
+/// and ± of Windows do: they say nothing of a language, and look like parts of Chinese words.
 fn without_signs(line: &[u8]) -> Vec<u8> {
-    let ascii = |at: Option<usize>| at.and_then(|at| line.get(at)).is_none_or(u8::is_ascii);
-    let is_sign = |at: usize| SIGNS.contains(&line[at]) && ascii(at.checked_sub(1)) && ascii(Some(at + 1));
-    (0..line.len()).filter(|at| !is_sign(*at)).map(|at| line[at]).collect()
+    let pieces = line.chunk_by(|a, b| a.is_ascii() == b.is_ascii());
+    pieces.filter(|piece| !piece.iter().all(|byte| SIGNS.contains(byte))).flatten().copied().collect()
 }
 
 fn no_text(sample: &[u8], is_strange: impl Fn(u8) -> bool) -> TextError {

@@ -124,8 +124,8 @@ mod tests {
         assert!((PI * 900.0 / (n * n) as f64 / whole.ratio - 1.0).abs() < 0.01);
     }
 
-    /// Of the twelve sides of three pixels in a row, beside a point that was not measured: eleven are seen. The
-    /// left end lies at the side of the map.
+    /// Three pixels in a row have twelve sides, of which one at the side of the map is none; towards a point
+    /// that was not measured one less is seen.
     #[test]
     fn sides_towards_holes_are_counted() {
         let hidden = |periodic: bool, hole: usize| {

@@ -47,6 +47,7 @@ fn signs_of_units_alone_are_those_of_western_windows() {
         "Breite: 20 µm ± 0.1 µm\n",
         "Area (µm²);Load (µN);20°C\n",
         "Displacement (Å)\n",
+        "Ra = 0,5\u{a0}µm\u{a0}±\u{a0}5\u{a0}%, «map»\n",
     ] {
         is_decoded(text, WINDOWS_1252, "Windows-1252");
     }
