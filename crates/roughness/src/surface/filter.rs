@@ -2,6 +2,7 @@
 
 use crate::surface::gaussian::{Gaussian, Places};
 use crate::surface::height_map::{HeightMap, MapError};
+use asperity_material::units::rounded;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -36,7 +37,8 @@ fn checked(map: &HeightMap, name: &'static str, cutoff: f64) -> Result<(), Filte
     if cutoff >= least && cutoff <= most {
         return Ok(());
     }
-    Err(FilterError::Cutoff { name, cutoff_um: cutoff * 1e6, least_um: least * 1e6, most_um: most * 1e6 })
+    let [cutoff_um, least_um, most_um] = [cutoff, least, most].map(|length| rounded(length * 1e6, 6));
+    Err(FilterError::Cutoff { name, cutoff_um, least_um, most_um })
 }
 
 /// S-filter: removes what is shorter than `cutoff` (m); a wave of that length keeps half its height.
