@@ -4,6 +4,7 @@
 use super::axes::{self, Axes};
 use super::beside::{Others, take_invalid};
 use super::described::Described;
+use super::even::Step;
 use super::marks;
 use super::measured::{Measured, ReadError, Request, Spacing};
 use super::names::OF_HEIGHTS;
@@ -397,8 +398,14 @@ fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
         // a column that numbers the points is no place
         let is_numbered = columns > 3 && first.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
         let [x, y, z] = if is_numbered { [2, 3, 4] } else { [1, 2, 3] };
+        let along = !is_numbered && is_monotone(&first) && Step::new(&first).is_some();
         format!(
-            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"{x}\", y = \"{y}\", z = \"{z}\" }}{}",
+            "has {columns} columns and {rows} rows, {}: name the columns of points by columns = {{ x = \"{x}\", y = \"{y}\", z = \"{z}\" }}{}",
+            if along {
+                "the first of which rises in even steps as places of profiles do: `asperity crush` takes one profile x, z as asperity.profile; if they are points instead"
+            } else {
+                "the shape of a list, not of a map"
+            },
             if columns > 3 { ", or set override = true if it is a map" } else { "" }
         )
     } else {

@@ -120,8 +120,10 @@ fn rows_at_the_edges_do_not_vanish() {
 fn lists_wrapped_rows_and_two_tables_are_no_map() {
     let list: String = (0..80).map(|i| format!("{} {} 0.{i} 7\n", i % 9, i / 9)).collect();
     let numbered: String = (0..80).map(|i| format!("{} {} {} 0.{i}\n", i + 1, i % 9, i / 9)).collect();
+    let beside: String = (0..80).map(|i| format!("{}.5 0.{i} 1.{i}\n", 2 * i)).collect();
     for (text, word) in [
         (list, "shape of a list"),
+        (beside, "places of profiles"),
         (numbered, "x = \"2\", y = \"3\", z = \"4\""),
         (format!("Samps/line: 6\nNumber of lines: 2\n{MAP}"), "line 1: says 6 and 2"),
         (format!("Matrix: 2 x 6\n{MAP}"), "3 lines of 4"),
