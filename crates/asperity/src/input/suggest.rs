@@ -33,18 +33,11 @@ const EXPLAINED: [(&str, &str, &str, &str); 2] = [
     ),
 ];
 
-/// The line of a scene to begin with that gives the key `field`, or the first of the table of that name.
+/// The line of a scene of the program that gives the key `field`.
 fn example(field: &str) -> Option<String> {
-    let first = [scenes::SINGLE_ASPERITY, scenes::SURFACE];
-    first.into_iter().chain(scenes::ALL.iter().map(|(_, text)| *text)).find_map(|text| {
-        let lines = || text.lines().map(|line| line.split('#').next().unwrap_or(line).trim());
-        let key = lines().find(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == field));
-        let table = || {
-            let mut rest = lines().skip_while(|line| line.trim_matches(['[', ']']) != field);
-            Some(format!("{} with {}", rest.next()?, rest.next()?))
-        };
-        key.map(str::to_string).or_else(table)
-    })
+    let gives = |line: &&str| line.split_once('=').is_some_and(|(key, _)| key.trim() == field);
+    let line = scenes::ALL.iter().flat_map(|(_, text)| text.lines()).find(gives)?;
+    Some(format!("for example {}", line.split('#').next().unwrap_or(line).trim()))
 }
 
 /// A message of serde in the words of a scene, and help where there is some.
@@ -71,8 +64,7 @@ pub fn reword(message: &str) -> (String, Option<String>) {
             (format!("unknown {noun} `{word}`"), Some(help))
         }
         (None, [field]) if message.starts_with("missing field") => {
-            let help = example(field).map(|lines| format!("for example {lines}"));
-            (format!("`{field}` is missing"), help)
+            (format!("`{field}` is missing"), example(field))
         }
         _ => {
             let message = message
