@@ -36,7 +36,7 @@ const EXPLAINED: [(&str, &str, &str, &str); 2] = [
 /// The line of a scene of the program that gives the key `field`.
 fn example(field: &str) -> Option<String> {
     let gives = |line: &&str| line.split_once('=').is_some_and(|(key, _)| key.trim() == field);
-    let line = scenes::ALL.iter().flat_map(|(_, text)| text.lines()).find(gives)?;
+    let line = [scenes::SINGLE_ASPERITY, scenes::SURFACE].into_iter().flat_map(str::lines).find(gives)?;
     Some(format!("for example {}", line.split('#').next().unwrap_or(line).trim()))
 }
 
