@@ -353,7 +353,7 @@ def _with_files(curves: Any, folder: str) -> Any:
 
 
 def identify(
-    fit: FitTable | PathLike,
+    fit: FitTable | Mapping[str, Any] | PathLike,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
     out: PathLike | None = None,
