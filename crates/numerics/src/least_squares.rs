@@ -59,7 +59,7 @@ pub fn powers<const N: usize>(u: f64) -> [f64; N] {
 
 /// A column of which a smaller share than this is left beside the earlier ones is rounding.
 const ROUNDING_NORM: f64 = 1e-12;
-/// What is left of a sum of squares is orthogonal to rounding above this share.
+/// A rest above this share of a sum of squares is orthogonal to rounding.
 const SMALL_REST: f64 = 0.01;
 
 /// A least-squares problem to which columns are added one after the other, each made orthogonal to those

@@ -13,6 +13,13 @@ fn elastic(tolerance: f64) -> HalfSpace {
     HalfSpace { reduced_modulus: MODULUS, limit: None, tolerance }
 }
 
+/// A square self-affine map of 1 um pixels, its shortest wave of `cutoff` metres.
+fn self_affine(nodes: usize, seed: u64, cutoff: f64) -> HeightMap {
+    let grid = Grid { nodes: [nodes; 2], pixel: [1e-6; 2], seed };
+    let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 40e-6, cutoff };
+    generate(kind, &grid, Target::Height(0.3e-6)).unwrap()
+}
+
 /// The contact of a surface does not hang on the side that it is seen from, nor that of a periodic one on
 /// where it begins.
 #[test]
@@ -81,10 +88,7 @@ fn a_contact_knows_no_side_and_no_beginning() {
 /// is load over limit.
 #[test]
 fn the_area_hangs_on_the_limit_by_no_more_than_its_sensitivity() {
-    let grid = Grid { nodes: [64, 64], pixel: [1e-6, 1e-6], seed: 7 };
-    let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 40e-6, cutoff: 6e-6 };
-    let map = generate(kind, &grid, Target::Height(0.3e-6)).unwrap().with_periodic(true);
-    let surface = Surface::from_map(map).unwrap();
+    let surface = Surface::from_map(self_affine(64, 7, 6e-6).with_periodic(true)).unwrap();
     let at = |limit: f64, load: f64| {
         HalfSpace { limit: Some(limit), ..elastic(1e-9) }.press(&surface, Load::Pressure(load)).unwrap()
     };
@@ -118,9 +122,7 @@ fn the_area_hangs_on_the_limit_by_no_more_than_its_sensitivity() {
 /// The metal that flows lowers the surface by what is said.
 #[test]
 fn a_flattened_surface_is_lower_by_its_residual_displacement() {
-    let grid = Grid { nodes: [64, 64], pixel: [1e-6, 1e-6], seed: 7 };
-    let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 40e-6, cutoff: 6e-6 };
-    let surface = Surface::from_map(generate(kind, &grid, Target::Height(0.3e-6)).unwrap()).unwrap();
+    let surface = Surface::from_map(self_affine(64, 7, 6e-6)).unwrap();
     let pressed = |limit| {
         let found = HalfSpace { limit, ..elastic(1e-6) }.press(&surface, Load::Pressure(2e8)).unwrap();
         let lower = surface.extent.high - found.flattened_surface(&surface).unwrap().extent.high;
@@ -166,7 +168,7 @@ fn the_error_of_straight_strips_holds_in_every_direction() {
     }
 }
 
-/// What is stated of the area of grooves is that of their image in a mirror: the same pixels touch.
+/// Grooves and their image in a mirror have one stated error of the area: the same pixels touch.
 #[test]
 fn the_error_of_straight_strips_is_that_of_their_mirror_image() {
     for waves in [[1.0, 3.0], [3.0, 1.0], [2.0, 1.0], [2.0, 3.0], [1.0, 1.0], [1.0, 4.0]] {
@@ -183,9 +185,7 @@ fn the_error_of_straight_strips_is_that_of_their_mirror_image() {
 /// which has no height to measure a residual by, touches whole.
 #[test]
 fn a_light_load_and_a_flat_surface_have_their_answers() {
-    let grid = Grid { nodes: [48, 48], pixel: [1e-6, 1e-6], seed: 5 };
-    let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 40e-6, cutoff: 8e-6 };
-    let surface = Surface::from_map(generate(kind, &grid, Target::Height(0.3e-6)).unwrap()).unwrap();
+    let surface = Surface::from_map(self_affine(48, 5, 8e-6)).unwrap();
     for load in [1e-3, 1.0, 1e6] {
         let found = elastic(1e-6).press(&surface, Load::Pressure(load)).unwrap();
         let carried: f64 =

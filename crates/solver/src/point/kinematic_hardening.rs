@@ -212,21 +212,24 @@ pub fn elastic_energy(elastic: &Elastic, memory: &History) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_material::{Hardening, HardeningLaw};
+    use asperity_material::{Hardening, HardeningLaw, StressMeasure};
+
+    const ELASTIC: Elastic = Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 };
+
+    /// A metal that hardens by a power of its plastic strain, with this share of it kinematic.
+    fn metal(kinematic_share: f64) -> Metal {
+        let law = HardeningLaw::Swift;
+        let curve =
+            Hardening { law, yield_stress: 1.0, exponent: 0.2, youngs_modulus: ELASTIC.youngs_modulus };
+        let stress_measure = StressMeasure::Kirchhoff;
+        Metal { elastic: ELASTIC, hardening: Some(curve.into()), kinematic_share, stress_measure }
+    }
 
     /// Along a line the back stress keeps pace with the curve: √(3/2)|Δα| = m [σ(ε_p + Δε_p) - σ(ε_p)].
     #[test]
     fn an_extrapolated_back_stress_rises_by_its_share_of_the_curve() {
-        let law = HardeningLaw::Swift;
-        let curve = Hardening { law, yield_stress: 1.0, exponent: 0.2, youngs_modulus: 500.0 };
-        let elastic = Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 };
         for share in [0.4, 1.0] {
-            let metal = Metal {
-                elastic,
-                hardening: Some(curve.into()),
-                kinematic_share: share,
-                stress_measure: asperity_material::StressMeasure::Kirchhoff,
-            };
+            let metal = metal(share);
             let start = metal.virgin();
             let flowed = PlasticIncrement { strain: [-0.01, 0.02, -0.01, 0.0], accumulated: 0.02 };
             let (state, memory) = extrapolate(&metal, &start, &History::default(), &flowed);
@@ -241,15 +244,8 @@ mod tests {
     /// A point that has flowed lies on its yield surface, wherever that has moved and however it has grown.
     #[test]
     fn a_point_that_flowed_lies_on_its_yield_surface() {
-        let law = HardeningLaw::Swift;
-        let curve = Hardening { law, yield_stress: 1.0, exponent: 0.2, youngs_modulus: 500.0 };
         for share in [0.0, 0.4, 1.0] {
-            let metal = Metal {
-                elastic: Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 },
-                hardening: Some(curve.into()),
-                kinematic_share: share,
-                stress_measure: asperity_material::StressMeasure::Kirchhoff,
-            };
+            let metal = metal(share);
             let increment = [0.03, 0.01, 0.0, -0.02, -0.01];
             let (found, memory) =
                 update(&metal, &metal.virgin(), &History::default(), &increment, Tangent::None).unwrap();
@@ -270,24 +266,20 @@ mod tests {
     /// elastic, a body whose strain is plastic does not yield, and one that is elastic yields by its stress.
     #[test]
     fn energy_and_yielding_go_by_what_is_elastic_of_the_strain() {
-        let elastic = Elastic { youngs_modulus: 500.0, poissons_ratio: 0.3 };
         let (strain, volume) = ([0.01_f64, 0.004, 0.0], 0.014);
         let deviator = [strain[0] - volume / 3.0, strain[1] - volume / 3.0, -volume / 3.0, 0.0];
         let stretched = |plastic: Sym| {
             let deformation = [strain[0].exp_m1(), 0.0, 0.0, strain[1].exp_m1(), strain[2].exp_m1()];
             History { deformation, plastic, back: [0.0; 4] }
         };
-        let (k, g) = (elastic.bulk_modulus(), elastic.shear_modulus());
+        let (k, g) = (ELASTIC.bulk_modulus(), ELASTIC.shear_modulus());
         for share in [0.0, 0.4, 1.0] {
             let left = deviator.map(|e| (1.0 - share) * e);
-            let found = elastic_energy(&elastic, &stretched(deviator.map(|e| share * e)));
+            let found = elastic_energy(&ELASTIC, &stretched(deviator.map(|e| share * e)));
             let exact = 0.5 * k * volume * volume + g * left.iter().map(|e| e * e).sum::<f64>();
             assert!((found / exact - 1.0).abs() < 1e-12, "{share}: {found} {exact}");
         }
-        let curve =
-            Hardening { law: HardeningLaw::Swift, yield_stress: 1.0, exponent: 0.2, youngs_modulus: 500.0 };
-        let stress_measure = asperity_material::StressMeasure::Kirchhoff;
-        let metal = Metal { elastic, hardening: Some(curve.into()), kinematic_share: 1.0, stress_measure };
+        let metal = metal(1.0);
         let start = metal.virgin();
         let size = root() * deviator.iter().map(|e| e * e).sum::<f64>().sqrt();
         for (share, function) in [(0.0, 2.0 * g * size - 1.0), (1.0, -1.0), (0.5, g * size - 1.0)] {
