@@ -18,12 +18,16 @@ const TELLING_LINES: usize = 1000;
 /// °, ±, ², ³, µ, ·, «, », dashes and the space that does not break of Windows, Å.
 const SIGNS: &[u8] = b"\xb0\xb1\xb2\xb3\xb5\xb7\xab\xbb\x96\x97\xa0\xc5";
 
-/// Encodings whose usual names are not those of the standard of the web.
-const NAMES: [(&Encoding, &str); 4] = [
+/// Encodings that letters tell, and their usual names.
+const TOLD: [(&Encoding, &str); 8] = [
+    (BIG5, "Big5"),
+    (EUC_JP, "EUC-JP"),
+    (EUC_KR, "EUC-KR"),
+    (GBK, "GBK"),
+    (KOI8_U, "KOI8-U"),
     (SHIFT_JIS, "Shift-JIS"),
     (WINDOWS_1250, "Windows-1250"),
     (WINDOWS_1251, "Windows-1251"),
-    (WINDOWS_1252, "Windows-1252"),
 ];
 
 /// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
@@ -93,13 +97,13 @@ fn national(bytes: &[u8]) -> (Cow<'_, str>, &'static str) {
         detector.feed(&without_signs(line), false);
     }
     detector.feed(&[], true);
-    let encoding = match detector.guess(None, false) {
+    let guess = match detector.guess(None, false) {
         // which has the letters of the other, and the sign of micro
-        e if e == ISO_8859_2 => WINDOWS_1250,
-        e if [SHIFT_JIS, EUC_JP, GBK, BIG5, EUC_KR, WINDOWS_1250, WINDOWS_1251, KOI8_U].contains(&e) => e,
-        _ => WINDOWS_1252,
+        guess if guess == ISO_8859_2 => WINDOWS_1250,
+        guess => guess,
     };
-    let name = NAMES.iter().find(|(other, _)| *other == encoding).map_or(encoding.name(), |(_, name)| name);
+    let told = TOLD.into_iter().find(|(encoding, _)| *encoding == guess);
+    let (encoding, name) = told.unwrap_or((WINDOWS_1252, "Windows-1252"));
     (encoding.decode_without_bom_handling(bytes).0, name)
 }
 

@@ -221,17 +221,17 @@ fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
         let mut of_spline = LeftOut::new(y);
         without = without.min(of_spline.error(&smooth));
         // what the spline leaves of the columns that are apart from it
-        let apart = |(own, column): &(i32, Vec<f64>)| {
-            let rest = smooth.remainder(column);
-            let share = dot(&rest, &rest) / dot(column, column);
-            (share > fitted.apart_from_spline).then(|| (*own, column.clone(), rest))
-        };
-        let waves: Vec<Vec<_>> =
-            waves.iter().map(|columns| columns.iter().filter_map(apart).collect()).collect();
+        let mut apart = Vec::new();
+        for columns in &waves {
+            let rests = columns.iter().map(|(own, column)| (*own, column, smooth.remainder(column)));
+            let share = |column: &[f64], rest: &[f64]| dot(rest, rest) / dot(column, column);
+            let far = rests.filter(|(_, column, rest)| share(column, rest) > fitted.apart_from_spline);
+            apart.push(far.collect::<Vec<_>>());
+        }
         for power in 0..=HIGHEST_POWER {
             let mut fit = smooth.clone();
             let mut left_out = of_spline.clone();
-            for columns in &waves {
+            for columns in &apart {
                 for (_, column, rest) in columns.iter().filter(|(own, ..)| *own <= power) {
                     fit.add_beyond(smooth.count(), column, rest, fitted.apart);
                 }
