@@ -1,6 +1,8 @@
 //! Fields on a mesh as compressed VTU, the XML format of VTK and ParaView.
 
 use crate::{ElementKind, Mesh};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use flate2::{Compress, Compression, FlushCompress, Status};
 use std::io::Write;
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, UnstructuredGridPiece, Version,
@@ -79,27 +81,59 @@ pub fn write_vtu(
         },
         data: Attributes { point: attributes(nodes, mesh.nodes.len())?, cell: attributes(cells, count)? },
     };
-    let file = Vtk {
+    let encode = |e: &dyn std::error::Error| VtuError::Encode(e.to_string());
+    let mut file = Vtk {
         version: Version::new_xml(1, 0),
         title: String::new(),
         byte_order: ByteOrder::LittleEndian,
         data: DataSet::inline(piece),
         file_path: None,
     }
-    .try_into_xml_format(Compressor::ZLib, 1)
-    .map_err(|e| VtuError::Encode(e.to_string()))?;
+    .try_into_xml_format(Compressor::None, 0)
+    .map_err(|e| encode(&e))?;
+    file.compressor = Compressor::ZLib;
     let mut text = Vec::new();
-    file.write(&mut text).map_err(|e| VtuError::Encode(e.to_string()))?;
+    file.write(&mut text).map_err(|e| encode(&e))?;
+    let text = String::from_utf8(text).map_err(|e| encode(&e))?;
     // vtkio writes no data of a whole file
-    const GRID: &[u8] = b"<UnstructuredGrid>";
-    let start = text.windows(GRID.len()).position(|w| w == GRID).map_or(0, |i| i + GRID.len());
-    if start == 0 && !whole.is_empty() {
-        return Err(VtuError::Encode("no grid was written".into()));
-    }
-    out.write_all(&text[..start])?;
+    let (head, arrays) =
+        text.split_once(GRID).ok_or_else(|| VtuError::Encode("no grid was written".into()))?;
+    write!(out, "{head}{GRID}")?;
     write_whole(&mut out, whole)?;
-    out.write_all(&text[start..])?;
+    let mut rest = arrays;
+    while let Some((before, plain, after)) = next_array(rest) {
+        write!(out, "{before}{}", compressed(plain).map_err(|e| encode(&*e))?)?;
+        rest = after;
+    }
+    out.write_all(rest.as_bytes())?;
     Ok(())
+}
+
+/// The element of the file in which its numbers stand.
+const GRID: &str = "<UnstructuredGrid>";
+
+/// The text up to the numbers of the next array, these in base64, and the text after them.
+fn next_array(text: &str) -> Option<(&str, &str, &str)> {
+    let tag = text.find("<DataArray")?;
+    let start = tag + text[tag..].find('>')? + 1;
+    let end = start + text[start..].find('<')?;
+    Some((&text[..start], &text[start..end], &text[end..]))
+}
+
+/// The numbers of an array in base64 behind their count of bytes, compressed as one block of VTK. (vtkio gives
+/// its compressor every number by itself, which takes most of the time of a file.)
+fn compressed(plain: &str) -> Result<String, Box<dyn std::error::Error>> {
+    let bytes = BASE64_STANDARD.decode(plain)?;
+    let numbers = bytes.get(size_of::<u64>()..).unwrap_or_default();
+    // at the fastest level a byte takes nine bits at most
+    let mut block = Vec::with_capacity(numbers.len() + numbers.len() / 8 + 64);
+    let mut deflate = Compress::new(Compression::fast(), true);
+    if deflate.compress_vec(numbers, &mut block, FlushCompress::Finish)? != Status::StreamEnd {
+        return Err("an array is too large for its block".into());
+    }
+    // one block, its size as that of a last one, which all readers understand
+    let sizes = [1, numbers.len(), numbers.len(), block.len()].map(|n| (n as u64).to_le_bytes()).concat();
+    Ok(BASE64_STANDARD.encode(sizes) + &BASE64_STANDARD.encode(block))
 }
 
 /// The numbers of a whole file as VTK's field data.
@@ -135,4 +169,56 @@ fn attribute(array: &FieldArray, len: usize) -> Result<Attribute, VtuError> {
         &n => (n as u32, values.clone()),
     };
     Ok(Attribute::DataArray(DataArray::new(name.as_str(), components).with_vec(values)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Sides;
+    use vtkio::model::Piece;
+
+    /// A strip of square cells side by side.
+    fn strip(cells: u32) -> Mesh {
+        let nodes = (0..=cells).flat_map(|i| [[f64::from(i), 0.0], [f64::from(i), 1.0]]).collect();
+        let cells = (0..cells).flat_map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1]).collect();
+        Mesh { kind: ElementKind::Quad4, nodes, cells, sides: Sides::default() }
+    }
+
+    /// With an array of 4096 numbers, which is as long as a block of vtkio.
+    #[test]
+    fn every_array_is_one_block_and_is_read_back() {
+        let mesh = strip(4096);
+        let fields = |name: &str, count: usize| FieldArray {
+            name: name.into(),
+            components: 1,
+            values: (0..count).map(|i| (i as f64).sqrt().sin()).collect(),
+        };
+        let (of_nodes, of_cells) = (fields("at_nodes", mesh.nodes.len()), fields("in_cells", 4096));
+        let mut text = Vec::new();
+        write_vtu(&mut text, &mesh, 1.0, &[of_nodes.clone()], &[of_cells.clone()], &[("time", 0.5)]).unwrap();
+        let mut rest = std::str::from_utf8(&text).unwrap();
+        let mut sizes = Vec::new();
+        while let Some((_, array, after)) = next_array(rest) {
+            rest = after;
+            let Ok(head) = BASE64_STANDARD.decode(array.get(..44).unwrap_or("?")) else { continue };
+            let words = head.chunks_exact(8).map(|word| u64::from_le_bytes(word.try_into().unwrap()));
+            let words: Vec<u64> = words.collect();
+            assert_eq!((words[0], words[2]), (1, words[1]));
+            assert_eq!(words[3] as usize, BASE64_STANDARD.decode(&array[44..]).unwrap().len());
+            sizes.push(words[1]);
+        }
+        // two fields, points, cells' nodes, ends, kinds
+        assert_eq!(sizes, [8194 * 8, 4096 * 8, 8194 * 24, 4 * 4096 * 8, 4096 * 8, 4096]);
+
+        let read = Vtk::parse_xml(text.as_slice()).unwrap();
+        let DataSet::UnstructuredGrid { pieces, .. } = read.data else { panic!("no grid") };
+        let Piece::Inline(piece) = &pieces[0] else { panic!("no piece") };
+        let values = |attributes: &[Attribute]| match &attributes[0] {
+            Attribute::DataArray(array) => array.data.clone().cast_into::<f64>().unwrap(),
+            Attribute::Field { .. } => panic!("no array"),
+        };
+        assert_eq!(values(&piece.data.point), of_nodes.values);
+        assert_eq!(values(&piece.data.cell), of_cells.values);
+        assert_eq!(piece.points.clone().cast_into::<f64>().unwrap()[3], mesh.nodes[1][0]);
+    }
 }

@@ -5,9 +5,28 @@ use asperity_mesh::{Edge, Mesh};
 use asperity_simulation::run::FieldFrame;
 use asperity_solver::element::{quad4, quad8};
 
-/// Fields of a facet: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain, distance from
-/// first yield, yield function.
-pub type Values = [f64; 5];
+/// A field that panels show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    /// Von Mises stress, MPa.
+    VonMises,
+    /// Hydrostatic pressure, MPa.
+    Pressure,
+    /// Accumulated plastic strain.
+    PlasticStrain,
+    /// Distance from first yield, negative before it.
+    FirstYield,
+    /// Yield function over yield stress, negative where metal is elastic.
+    YieldFunction,
+}
+
+impl Field {
+    /// Number of fields.
+    pub const COUNT: usize = 5;
+}
+
+/// Every field at a point, in their order.
+pub type Values = [f64; Field::COUNT];
 
 /// A corner of a facet.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +96,9 @@ impl DeformedMesh {
 
     /// True where some of a cell has yielded.
     pub fn yielded(&self, cell: usize) -> bool {
-        self.mesh.cell(cell)[..4].iter().any(|&node| self.values[node as usize][3] > 0.0)
+        self.mesh.cell(cell)[..4]
+            .iter()
+            .any(|&node| self.values[node as usize][Field::FirstYield as usize] > 0.0)
     }
 
     /// The corners of a cell.
@@ -105,14 +126,14 @@ impl DeformedMesh {
         let nodes = self.mesh.cell(cell);
         let (linear, quadratic) = (quad4::shape(x, y, 1.0).value, quad8::shape(x, y, 1.0).value);
         let shape = if nodes.len() == 8 { &quadratic[..] } else { &linear[..] };
-        let mut vertex = Vertex { at: [0.0; 2], values: [0.0; 5] };
+        let mut vertex = Vertex { at: [0.0; 2], values: [0.0; Field::COUNT] };
         for (weight, &node) in shape.iter().zip(nodes) {
             let point = self.points[node as usize];
             vertex.at = [0, 1].map(|k| vertex.at[k] + weight * point[k]);
         }
         for (weight, &node) in linear.iter().zip(nodes) {
             let of_node = self.values[node as usize];
-            vertex.values = [0, 1, 2, 3, 4].map(|i| vertex.values[i] + weight * of_node[i]);
+            vertex.values = std::array::from_fn(|i| vertex.values[i] + weight * of_node[i]);
         }
         vertex
     }

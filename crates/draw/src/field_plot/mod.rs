@@ -34,7 +34,8 @@ impl Section {
     pub fn svg(&self, panels: &[Panel], title: &str) -> Result<String, String> {
         let window = Frame::new(HEADING, WIDTH, self.window.low, self.window.high);
         let dots = window.size.map(|length| ((length * DOTS_PER_UNIT).round() as usize).max(1));
-        let raster = Raster::draw(&self.mesh, &self.window, self.mirrored, dots);
+        let fields: Vec<_> = panels.iter().flat_map(|panel| panel.fields()).copied().collect();
+        let raster = Raster::draw(&self.mesh, &self.window, self.mirrored, dots, &fields);
         let mut top = TITLE;
         let mut parts: Vec<Markup> = Vec::new();
         for (i, panel) in panels.iter().enumerate() {

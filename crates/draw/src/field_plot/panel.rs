@@ -1,6 +1,7 @@
 //! One panel: contours, tool, outline, axes, colour bar.
 
-use super::raster::{Dot, Raster};
+use super::deformed_mesh::Field;
+use super::raster::Raster;
 use super::section::Section;
 use crate::encode::indexed_png;
 use crate::frame::{Frame, HEADS, ROOM_LEFT, ROOM_RIGHT, Short, boxes, tick};
@@ -47,6 +48,17 @@ impl Panel {
     /// Fig. 5 of the paper.
     pub const FIG5: [Panel; 2] = [Panel::ElasticZones, Panel::Pressure];
 
+    /// The fields whose contours it shows; the elements are drawn on the body, which any field tells.
+    pub fn fields(self) -> &'static [Field] {
+        match self {
+            Panel::ContactPressure => &[],
+            Panel::VonMises | Panel::Mesh => &[Field::VonMises],
+            Panel::PlasticStrain => &[Field::PlasticStrain],
+            Panel::Pressure => &[Field::Pressure],
+            Panel::ElasticZones => &[Field::VonMises, Field::FirstYield, Field::YieldFunction],
+        }
+    }
+
     /// The panel in `frame`, whose top is below the heading, and the panel's height; the lowest one carries
     /// the numbers of the horizontal axis.
     ///
@@ -87,26 +99,29 @@ impl Panel {
     }
 
     fn contours(self, section: &Section, raster: &Raster) -> Result<Contours, String> {
-        let banded = |heading: &str, i: usize, bands: Bands| {
+        let banded = |heading: &str, field: Field, bands: Bands| {
             let mut last = 0;
-            let image = raster.png(&bands.colours, |dot| {
-                last = bands.band_near(f64::from(dot.values[i]), last);
+            let image = raster.png(&bands.colours, field, |value| {
+                last = bands.band_near(value, last);
                 1 + last as u8
             })?;
             Ok(Contours { heading: heading.into(), image, bar: Some(bands), boxes: Vec::new() })
         };
         match self {
-            Panel::VonMises => banded("von Mises stress (MPa)", 0, Bands::rising(raster.range(0)[1])),
+            Panel::VonMises => {
+                let bands = Bands::rising(raster.range(Field::VonMises)[1]);
+                banded("von Mises stress (MPa)", Field::VonMises, bands)
+            }
             Panel::Pressure => {
-                banded("hydrostatic pressure (MPa), tension below 0", 1, Bands::about_zero(raster.range(1)))
+                let bands = Bands::about_zero(raster.range(Field::Pressure));
+                banded("hydrostatic pressure (MPa), tension below 0", Field::Pressure, bands)
             }
             Panel::PlasticStrain => {
-                let bands = Bands::strain(raster.range(2)[1]);
+                let bands = Bands::strain(raster.range(Field::PlasticStrain)[1]);
                 let palette = [bands.colours.as_slice(), &[ELASTIC]].concat();
                 let elastic = palette.len() as u8;
                 let mut last = 0;
-                let image = raster.png(&palette, |dot| {
-                    let strain = f64::from(dot.values[2]);
+                let image = raster.png(&palette, Field::PlasticStrain, |strain| {
                     if strain < bands.edges[0] {
                         return elastic;
                     }
@@ -126,7 +141,7 @@ impl Panel {
                 Ok(Contours { heading, image, bar: None, boxes })
             }
             Panel::Mesh | Panel::ContactPressure => {
-                let image = raster.png(&[ELASTIC], |_| 1)?;
+                let image = raster.png(&[ELASTIC], Field::VonMises, |_| 1)?;
                 Ok(Contours { heading: "elements".into(), image, bar: None, boxes: Vec::new() })
             }
         }
@@ -137,11 +152,11 @@ impl Panel {
 /// the volume at its start, so that flowing metal is off by some thousandths.
 const ELASTIC_NOW: f32 = -0.01;
 
-/// Number of the zone of a dot among [`ZONES`], counted from 1.
-pub(super) fn zone(dot: &Dot) -> u8 {
-    match dot.values {
-        [.., first_yield, _] if first_yield < 0.0 => 1,
-        [.., now] if now < ELASTIC_NOW => 2,
+/// Number of the zone of metal among [`ZONES`], counted from 1.
+pub(super) fn zone(first_yield: f32, yield_function: f32) -> u8 {
+    match (first_yield, yield_function) {
+        (first_yield, _) if first_yield < 0.0 => 1,
+        (_, now) if now < ELASTIC_NOW => 2,
         _ => 3,
     }
 }
@@ -151,20 +166,20 @@ pub(super) fn zone(dot: &Dot) -> u8 {
 fn zones(section: &Section, raster: &Raster) -> Result<Vec<u8>, String> {
     let [columns, rows] = raster.size;
     let limit = section.yield_stress.unwrap_or(f64::INFINITY) as f32;
-    let above = |dot: Option<Dot>| dot.map(|dot| dot.values[0] >= limit);
+    let [stress, first_yield, now] =
+        [Field::VonMises, Field::FirstYield, Field::YieldFunction].map(|field| raster.plane(field));
+    let above = |place: usize| (!stress[place].is_nan()).then(|| stress[place] >= limit);
     let on_line = |place: usize| {
         let (x, y) = (place % columns, place / columns);
-        let here = above(raster.dots[place]);
+        let here = above(place);
         let next =
             [(x + 1 < columns).then_some(place + 1), (y + 1 < rows).then_some(place + columns)].into_iter();
-        next.flatten()
-            .filter_map(|other| above(raster.dots[other]))
-            .any(|other| here.is_some_and(|h| h != other))
+        next.flatten().filter_map(above).any(|other| here.is_some_and(|h| h != other))
     };
-    let zones = raster.dots.iter().enumerate().map(|(place, dot)| match dot {
-        None => 0,
-        Some(_) if on_line(place) => 4,
-        Some(dot) => zone(dot),
+    let zones = (0..columns * rows).map(|place| match place {
+        place if stress[place].is_nan() => 0,
+        place if on_line(place) => 4,
+        place => zone(first_yield[place], now[place]),
     });
     indexed_png(raster.size, &ZONES, &zones.collect::<Vec<u8>>())
 }

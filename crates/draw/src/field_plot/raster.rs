@@ -1,6 +1,6 @@
 //! Facets painted onto a grid of dots.
 
-use super::deformed_mesh::{DeformedMesh, Vertex};
+use super::deformed_mesh::{DeformedMesh, Field, Vertex};
 use super::window::{Window, range};
 use crate::encode::indexed_png;
 use crate::palette::Colour;
@@ -15,15 +15,9 @@ const OUTSIDE: f64 = 1e-9;
 pub struct Raster {
     /// Columns and rows of dots.
     pub size: [usize; 2],
-    /// Row by row from the top; `None` outside the body.
-    pub dots: Vec<Option<Dot>>,
-}
-
-/// The thing at a dot.
-#[derive(Clone, Copy, Debug)]
-pub struct Dot {
-    /// Fields, single precision is plenty for a colour.
-    pub values: [f32; 5],
+    /// Each field row by row from the top, NaN outside the body, single precision is plenty for a colour; of
+    /// the fields that no panel shows nothing.
+    planes: [Vec<f32>; Field::COUNT],
 }
 
 /// The least whole number from `x` on, which is not negative. (`f64::ceil` is a call on processors without an
@@ -34,10 +28,19 @@ fn ceiling(x: f64) -> usize {
 }
 
 impl Raster {
-    /// Paints the part of `mesh` in `window`; where `mirrored`, the window reaches as far to the left of the
-    /// axis as to its right, and shows the mirror image there.
-    pub fn draw(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
-        let mut raster = Raster { size, dots: vec![None; size[0] * size[1]] };
+    /// Paints `fields` of the part of `mesh` in `window`; where `mirrored`, the window reaches as far to the
+    /// left of the axis as to its right, and shows the mirror image there.
+    pub fn draw(
+        mesh: &DeformedMesh,
+        window: &Window,
+        mirrored: bool,
+        size: [usize; 2],
+        fields: &[Field],
+    ) -> Raster {
+        let mut raster = Raster { size, planes: Default::default() };
+        for &field in fields {
+            raster.planes[field as usize] = vec![f32::NAN; size[0] * size[1]];
+        }
         let span = window.size();
         let scale = size[0] as f64 / span[0];
         for cell in 0..mesh.cells() {
@@ -59,9 +62,9 @@ impl Raster {
         }
         if mirrored {
             let columns = size[0];
-            for row in raster.dots.chunks_exact_mut(columns) {
+            for row in raster.planes.iter_mut().flat_map(|plane| plane.chunks_exact_mut(columns)) {
                 let (left, right) = row.split_at_mut(columns / 2);
-                left.iter_mut().zip(right.iter().rev()).for_each(|(image, dot)| *image = *dot);
+                left.iter_mut().zip(right.iter().rev()).for_each(|(image, value)| *image = *value);
             }
         }
         raster
@@ -83,10 +86,7 @@ impl Raster {
         // shares of the corners, which change evenly along a row of dots
         let sides = [[b, c], [c, a], [a, b]];
         let growth = sides.map(|[q, s]| (q[1] - s[1]) * per_area);
-        let values = |shares: [f64; 3]| {
-            [0, 1, 2, 3, 4].map(|i| (0..3).map(|k| shares[k] * facet[k].values[i]).sum::<f64>())
-        };
-        let value_growth = values(growth);
+        let value = |shares: [f64; 3], i: usize| (0..3).map(|k| shares[k] * facet[k].values[i]).sum::<f64>();
         for y in first(top, end[1])..after(bottom, end[1]) {
             let (row, y) = (y * self.size[0], y as f64 + 0.5);
             let shares = sides.map(|[q, s]| (q[0] * (s[1] - y) - (q[1] - y) * s[0]) * per_area);
@@ -101,26 +101,42 @@ impl Raster {
                     _ => {}
                 }
             }
-            let at_left = values(shares);
-            for x in first(from, end[0])..after(to, end[0]) {
-                let along = x as f64 + 0.5;
-                let values = [0, 1, 2, 3, 4].map(|i| (at_left[i] + along * value_growth[i]) as f32);
-                self.dots[row + x] = Some(Dot { values });
+            let [first, after] = [first(from, end[0]), after(to, end[0])];
+            if first >= after {
+                continue;
+            }
+            for (i, plane) in self.planes.iter_mut().enumerate().filter(|(_, plane)| !plane.is_empty()) {
+                let (at_left, growth) = (value(shares, i), value(growth, i));
+                for (x, dot) in (first..after).zip(&mut plane[row + first..row + after]) {
+                    *dot = (at_left + (x as f64 + 0.5) * growth) as f32;
+                }
             }
         }
     }
 
-    /// Least and largest of field `i` in the picture.
-    pub fn range(&self, i: usize) -> [f64; 2] {
-        range(self.dots.iter().flatten().map(|dot| f64::from(dot.values[i]))).unwrap_or_default()
+    /// `field` at every dot, row by row from the top, NaN outside the body.
+    pub fn plane(&self, field: Field) -> &[f32] {
+        &self.planes[field as usize]
     }
 
-    /// A colour for every dot, counted from 1 in `palette`; 0 is transparent.
+    /// Least and largest of `field` in the picture.
+    pub fn range(&self, field: Field) -> [f64; 2] {
+        let inside = self.plane(field).iter().filter(|value| !value.is_nan());
+        range(inside.map(|value| f64::from(*value))).unwrap_or_default()
+    }
+
+    /// A colour for every dot by the value of `field`, counted from 1 in `palette`; 0 is transparent.
     ///
     /// # Errors
     /// A text for a person where the picture cannot be encoded.
-    pub fn png(&self, palette: &[Colour], mut colour: impl FnMut(&Dot) -> u8) -> Result<Vec<u8>, String> {
-        let indices: Vec<u8> = self.dots.iter().map(|dot| dot.as_ref().map_or(0, &mut colour)).collect();
+    pub fn png(
+        &self,
+        palette: &[Colour],
+        field: Field,
+        mut colour: impl FnMut(f64) -> u8,
+    ) -> Result<Vec<u8>, String> {
+        let index = |&value: &f32| if value.is_nan() { 0 } else { colour(f64::from(value)) };
+        let indices: Vec<u8> = self.plane(field).iter().map(index).collect();
         indexed_png(self.size, palette, &indices)
     }
 }
