@@ -138,7 +138,17 @@ def test_wrong_input_names_its_key() -> None:
         asperity.Scene.from_toml("no such file.toml")
     with pytest.raises(asperity.InputError, match="pixel_size_um"):
         asperity.press(waves(), closure="sneddon", material=STEEL, load={"pressure": "50 MPa"})
-    with pytest.raises(asperity.InputError, match="dimensions"):
+    with pytest.raises(asperity.InputError, match=r"material\.hardening_exponent is nan"):
+        asperity.Scene(**{**SCENE, "material": {**SCENE["material"], "hardening_exponent": float("nan")}})
+    with pytest.raises(asperity.InputError, match="tool.friction"):
+        asperity.study(asperity.Scene(**SCENE), {"tool.friction": [0.0, float("inf")]})
+    for size in ("1 um", -1.0, (1.0, 0.0), (1.0, 1.0, 1.0)):
+        with pytest.raises(asperity.InputError, match="pixel_size_um"):
+            asperity.press(waves(), pixel_size_um=size, closure="sneddon")  # type: ignore[arg-type]
+    for heights in (waves() > 0, 1j * waves(), np.where(waves() > 0, waves(), np.inf)):
+        with pytest.raises(asperity.InputError, match="heights are"):
+            asperity.press(heights, pixel_size_um=1.0, closure="sneddon")
+    with pytest.raises(asperity.InputError, match="dimension"):
         asperity.press(np.zeros(4), pixel_size_um=(1.0, 1.0), closure="sneddon")
     with pytest.raises(asperity.InputError, match="material"):
         asperity.press(waves(), pixel_size_um=(1.0, 1.0), closure="sneddon", load={"pressure": "1 MPa"})
@@ -163,6 +173,9 @@ def test_fields_are_arrays_over_a_mesh() -> None:
     assert frame["von_mises_MPa"].shape == (nodes,) and frame["displacement_um"].shape == (nodes, 2)
     assert frame["plastic_zone"].shape == (cells,) and frame.cells.max() == nodes - 1
     assert frame["von_mises_MPa"].max() > 200.0
+    for beyond in (result.frames, -99):
+        with pytest.raises(asperity.InputError, match=f"kept {result.frames}"):
+            result.fields(beyond)
     with pytest.raises(KeyError, match="von_mises_MPa"):
         frame["mises"]
     meshio = pytest.importorskip("meshio")

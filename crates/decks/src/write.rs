@@ -56,7 +56,7 @@ impl Deck {
             )?,
             Section::PlaneStrain => writeln!(
                 out,
-                "** plane strain, 1 um thick: forces in uN are N/m of ridge, areas in um2 widths in um"
+                "** plane strain, 1 um thick: forces in uN are N/m of ridge, areas in um2, widths in um"
             )?,
         }
         let tool = match self.reader {

@@ -28,14 +28,17 @@ pub(crate) struct MaterialCard {
 }
 
 /// Units that people give stress in, where a file has none, each in Pa.
-const STRESS_UNITS: [(&str, f64); 6] =
-    [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("psi", PSI), ("ksi", 1e3 * PSI)];
+const STRESS_UNITS: [(&str, f64); 5] =
+    [("Pa", 1.0), ("MPa", 1e6), ("GPa", 1e9), ("psi", PSI), ("ksi", 1e3 * PSI)];
 
 /// Pa of a pound per square inch.
 const PSI: f64 = 6_894.757_293_168_361;
 
 /// Difference of two Young's moduli of one metal, as a share.
 const MODULUS_TOLERANCE: f64 = 0.1;
+
+/// Difference that is none, in percent.
+const SAME_MODULUS: f64 = 0.05;
 
 /// The way out that every such file has.
 const WRITE_A_TABLE: &str =
@@ -121,7 +124,8 @@ impl MaterialCard {
             let (plastic, modulus) = (&blocks[place], modulus_beside(&blocks, place)?);
             check_parameters(plastic)?;
             let unit = unit_of(modulus, youngs_modulus)?;
-            Self::of_rows(plastic, unit)
+            let away = 100.0 * (modulus.1 * unit.1 / youngs_modulus - 1.0);
+            Self::of_rows(plastic, unit, away)
         };
         match places[..] {
             [] => None,
@@ -132,7 +136,13 @@ impl MaterialCard {
         }
     }
 
-    fn of_rows(plastic: &Block<'_>, (unit, scale): (&str, f64)) -> Result<MaterialCard, TextError> {
+    /// The rows with their stress in a unit, in which Young's modulus of the file is `away` percent off that of
+    /// the scene.
+    fn of_rows(
+        plastic: &Block<'_>,
+        (unit, scale): (&str, f64),
+        away: f64,
+    ) -> Result<MaterialCard, TextError> {
         let rows = plastic.numbers()?;
         let (mut points, mut lines) = (Vec::new(), Vec::new());
         let temperature = rows.first().and_then(|(_, row)| row.get(2).copied());
@@ -155,9 +165,14 @@ impl MaterialCard {
         let [Some(first), Some(last)] = [lines.first(), lines.last()] else {
             return Err(TextError::new(plastic.line, "has no rows below it"));
         };
+        let modulus = match away.abs() < SAME_MODULUS {
+            true => "*ELASTIC gives Young's modulus of the scene".into(),
+            false => {
+                format!("*ELASTIC gives a Young's modulus {away:+.1} % off that of the scene, which is taken")
+            }
+        };
         let understood = format!(
-            "{} rows of *PLASTIC, lines {first} to {last}: stress in {unit}, in which *ELASTIC gives Young's modulus of the scene; \
-             plastic strain as a share",
+            "{} rows of *PLASTIC, lines {first} to {last}: stress in {unit}, in which {modulus}; plastic strain as a share",
             points.len()
         );
         Ok(MaterialCard { points, lines, unit: scale, understood })
@@ -250,6 +265,16 @@ mod tests {
                 assert!(*strain == e && (stress / s - 1.0).abs() < 1e-9, "{elastic}: {:?}", found.points);
             }
         }
+    }
+
+    #[test]
+    fn another_modulus_of_the_file_is_told_and_a_slip_in_the_scenes_is_refused() {
+        let away = read(&card("200000., 0.3", "300., 0.\n")).unwrap();
+        assert!(away.understood.contains("-4.8 % off"), "{}", away.understood);
+        assert!(!read(&card("210000., 0.3", "300., 0.\n")).unwrap().understood.contains("off"));
+        // 210 MPa for 210 GPa is no file in kPa
+        let slip = MaterialCard::read(&card("210000., 0.3", "300., 0.\n"), 210e6).unwrap();
+        assert!(slip.unwrap_err().message.contains("in none of Pa, MPa"));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import pathlib
 import tempfile
@@ -114,12 +115,28 @@ def _heights(surface: Any, pixel_size_um: PixelSize | None) -> tuple[FloatArray,
             pixel_size_um = (float(dx) * to_um, float(dy) * to_um)
         # its first index runs along x, ours along y
         surface = np.ma.filled(np.ma.asarray(surface.heights(), dtype=float), np.nan).T * to_um
-    heights = np.ma.filled(np.ma.asarray(surface, dtype=np.float64), np.nan)
+    given = np.ma.asarray(surface)
+    if given.dtype.kind not in "fiu":
+        raise _asperity.InputError(f"heights are of the type {given.dtype}: give real numbers, in µm")
+    heights = np.ma.filled(given.astype(np.float64), np.nan)
     if heights.ndim != 2:
-        raise _asperity.InputError(f"heights have {heights.ndim} dimensions: give two, the first along y")
+        raise _asperity.InputError(
+            f"heights are an array of dimension {heights.ndim}: give one of dimension 2, y first"
+        )
+    if infinite := int(np.isinf(heights).sum()):
+        raise _asperity.InputError(
+            f"heights are infinite at {infinite} points: give nan where nothing was measured"
+        )
     if pixel_size_um is None:
         raise _asperity.InputError("pixel_size_um is missing: the distance of the heights along x and y")
-    dx, dy = np.broadcast_to(np.asarray(pixel_size_um, dtype=np.float64), 2).tolist()
+    try:
+        dx, dy = np.broadcast_to(np.asarray(pixel_size_um, dtype=np.float64), 2).tolist()
+    except ValueError:
+        dx = dy = math.nan
+    if not (0.0 < dx < math.inf and 0.0 < dy < math.inf):
+        raise _asperity.InputError(
+            f"pixel_size_um is {pixel_size_um!r}: give a positive number in µm, or two of them along x and y"
+        )
     return np.ascontiguousarray(heights), (dx, dy)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import html
 import json
+import math
 import os
 import pathlib
 from collections.abc import Iterator, Mapping
@@ -13,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _asperity
+
 if TYPE_CHECKING:
     import meshio
     import pandas as pd
     import pyvista
-
-    from . import _asperity
 
     PathLike = str | os.PathLike[str]
 
@@ -27,20 +28,28 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def as_json(value: object) -> str:
-    """Tables of Python as JSON: numbers and arrays of numpy are numbers and lists, ``None`` is left out."""
+    """Tables of Python as JSON: numbers and arrays of numpy are numbers and lists, ``None`` is left out.
 
-    def plain(value: object) -> object:
+    :raises InputError: a number that is not finite, with the path of its key.
+    """
+
+    def plain(value: object, path: str) -> object:
         if isinstance(value, Mapping):
-            return {str(key): plain(inner) for key, inner in value.items() if inner is not None}
+            start = f"{path}." if path else ""
+            return {
+                str(key): plain(inner, f"{start}{key}") for key, inner in value.items() if inner is not None
+            }
         if isinstance(value, list | tuple | np.ndarray):
-            return [plain(inner) for inner in value]
+            return [plain(inner, f"{path}[{i}]") for i, inner in enumerate(value)]
         if isinstance(value, np.generic):
-            return value.item()
+            value = value.item()
         if isinstance(value, os.PathLike):
             return os.fspath(value)
+        if isinstance(value, float) and not math.isfinite(value):
+            raise _asperity.InputError(f"{path} is {value}: give a finite number, or leave the key out")
         return value
 
-    return json.dumps(plain(value), allow_nan=False)
+    return json.dumps(plain(value, ""), allow_nan=False)
 
 
 def _page(page: str, path: PathLike | None) -> str:
@@ -204,6 +213,8 @@ class Crush:
 
     def fields(self, i: int) -> Fields:
         """Fields ``i`` of ``frames``, in the order in which they came; -1 is the last."""
+        if not -self.frames <= i < self.frames:
+            raise _asperity.InputError(f"there are no fields {i}: the run kept {self.frames}, counted from 0")
         return Fields(self._inner.frame(i if i >= 0 else self.frames + i))
 
     def write(self, folder: PathLike) -> None:

@@ -217,9 +217,8 @@ fn simulate(
         Some(_) => Some("its fields could not be written".to_string()),
         None => reason(&outcome, tables),
     };
-    let resolved = Tables { numerics: outcome.numbers.numerics(), ..tables.clone() };
     let crush = Crush {
-        summary: Summary::new(&outcome, resolved, stopped, start.elapsed().as_secs_f64()),
+        summary: Summary::new(&outcome, tables, stopped, start.elapsed().as_secs_f64()),
         curve: outcome.rows,
         asperities: outcome.asperities,
         gaps: outcome.gaps,

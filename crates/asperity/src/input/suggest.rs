@@ -16,9 +16,12 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates.iter().filter(near).min_by_key(|c| (!longer_word(c), distance(&word, c))).copied()
 }
 
+/// The two filters of a map.
+const WAVES: &str = "surface.s_filter leaves out shorter waves than it says, surface.l_filter longer ones";
+
 /// Keys that are asked for and are none, each with a key of the table it would stand in, the message, and
 /// what to do.
-const EXPLAINED: [(&str, &str, &str, &str); 2] = [
+const EXPLAINED: [(&str, &str, &str, &str); 6] = [
     (
         "contact",
         "newton_tolerance",
@@ -31,6 +34,15 @@ const EXPLAINED: [(&str, &str, &str, &str); 2] = [
         "unknown key `force`",
         "give load.pressure = force / area of the map; known here: pressure, separation, unload",
     ),
+    (
+        "table",
+        "hollomon",
+        "hardening_law = \"table\" is one of `asperity crush` alone",
+        "to a map give yield_stress and hardening_exponent, or the hardness measured on this metal",
+    ),
+    ("filter", "s_filter", "unknown key `filter`", WAVES),
+    ("lambda_c", "l_filter", "unknown key `lambda_c`", WAVES),
+    ("lambda_s", "s_filter", "unknown key `lambda_s`", WAVES),
 ];
 
 /// The line of a scene of the program that gives the key `field`.

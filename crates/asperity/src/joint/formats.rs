@@ -26,8 +26,9 @@ pub(super) struct OptionalColumn {
     pub head: &'static str,
     /// Its key in a row.
     pub key: &'static str,
-    /// Its number in a row.
+    /// Its number in a row, and what that is multiplied by for a person.
     of: fn(&JointRow) -> Option<f64>,
+    pub scale: f64,
 }
 
 impl Joint {
@@ -161,33 +162,38 @@ impl Joint {
             false => String::new(),
         };
         format!(
-            "Joint of the surface {} ({} x {} points of {:.6} x {:.6} um) on a smooth rigid plane, by asperity {}. {holes}Metal: \
-             E* = {:.1} MPa, {metal}. Units: N, mm, MPa, mW, K, A, V. Overclosure 0 is first touch, where the mean planes are {:.6} um apart, which the mesh \
-             leaves out. Straight lines between rows are off the law by at most 0.5 %. {error}The law was computed to {:.6} MPa; the last row of \
+            "Joint of the surface {} ({} x {} points of {} x {} um) on a smooth rigid plane, by asperity {}. {holes}Metal: \
+             E* = {} MPa, {metal}. Units: N, mm, MPa, mW, K, A, V. Overclosure 0 is first touch, where the mean planes are {} um apart, which the mesh \
+             leaves out. Straight lines between rows are off the law by at most 0.5 %. {error}The law was computed to {} MPa; the last row of \
              pressure continues it along its tangent to twice that, and no row of conductance goes beyond.",
             s.surfaces.join(" and "),
             s.pixels[0],
             s.pixels[1],
-            s.pixel_size_um[0],
-            s.pixel_size_um[1],
+            with_digits(s.pixel_size_um[0], 4),
+            with_digits(s.pixel_size_um[1], 4),
             s.version,
-            s.reduced_modulus_MPa,
-            s.first_touch_gap_um,
-            s.largest_pressure_MPa,
+            with_digits(s.reduced_modulus_MPa, 4),
+            with_digits(s.first_touch_gap_um, 6),
+            with_digits(s.largest_pressure_MPa, 4),
         )
     }
 
     /// The columns of conductance and flow that this joint has, each with its head.
     pub(super) fn optional_columns(&self) -> Vec<OptionalColumn> {
-        let column = |head, key, of| OptionalColumn { head, key, of };
+        let column = |head, key, of| OptionalColumn { head, key, of, scale: 1.0 };
+        let error = |head, key, of| OptionalColumn { head, key, of, scale: 1e2 };
+        let flows = self.rows.iter().any(|row| row.flow_x_ml_per_min.or(row.flow_x_mbar_l_per_s).is_some());
         let all = [
             column("h, W/(m² K)", "conductance_W_per_m2K", |row| row.conductance_W_per_m2K),
             column("flow x, ml/min", "flow_x_ml_per_min", |row| row.flow_x_ml_per_min),
             column("flow y, ml/min", "flow_y_ml_per_min", |row| row.flow_y_ml_per_min),
             column("x, mbar l/s", "flow_x_mbar_l_per_s", |row| row.flow_x_mbar_l_per_s),
             column("y, mbar l/s", "flow_y_mbar_l_per_s", |row| row.flow_y_mbar_l_per_s),
+            error("error of x, %", "leak_x_error", |row| row.leak_x_error),
+            error("error of y, %", "leak_y_error", |row| row.leak_y_error),
         ];
-        all.into_iter().filter(|c| self.rows.iter().any(|row| (c.of)(row).is_some())).collect()
+        let shown = |c: &OptionalColumn| c.scale == 1.0 || flows;
+        all.into_iter().filter(|c| shown(c) && self.rows.iter().any(|row| (c.of)(row).is_some())).collect()
     }
 
     /// The result for a person.
@@ -200,12 +206,12 @@ impl Joint {
         };
         let _ = writeln!(
             text,
-            "{}: {} x {} points of {:.4} x {:.4} um, {} missing{taken}; Sq {} um",
+            "{}: {} x {} points of {} x {} um, {} missing{taken}; Sq {} um",
             s.surfaces.join(", "),
             s.pixels[0],
             s.pixels[1],
-            s.pixel_size_um[0],
-            s.pixel_size_um[1],
+            with_digits(s.pixel_size_um[0], 4),
+            with_digits(s.pixel_size_um[1], 4),
             s.missing,
             with_digits(s.sq_um, 4),
         );
@@ -213,21 +219,23 @@ impl Joint {
         let heads: String = more.iter().map(|column| format!("  {:>14}", column.head)).collect();
         let _ = writeln!(
             text,
-            "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um{heads}  error %"
+            "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um  error %{heads}"
         );
         let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
         for row in &self.rows {
             let _ = writeln!(
                 text,
-                "{:<8} {:>12}  {:>12}  {:>12}  {:>8}  {:>14}{}  {:>7}",
+                "{:<8} {:>12}  {:>12}  {:>12}  {:>8}  {:>14}  {:>7}{}",
                 if row.phase == Phase::Load { "load" } else { "unload" },
                 shown(Some(row.pressure_MPa)),
                 shown(Some(row.mean_gap_um)),
                 shown(Some(row.approach_um)),
                 shown(Some(100.0 * row.contact_area_ratio_corrected)),
                 shown(row.elastic_stiffness_MPa_per_um),
-                more.iter().map(|column| format!("  {:>14}", shown((column.of)(row)))).collect::<String>(),
                 row.error.map_or_else(|| "-".into(), |e| rounded(100.0 * e)),
+                more.iter()
+                    .map(|c| format!("  {:>14}", shown((c.of)(row).map(|v| c.scale * v))))
+                    .collect::<String>(),
             );
         }
         text + &self.summary.verdict + "\n"

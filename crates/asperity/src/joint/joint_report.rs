@@ -62,7 +62,7 @@ impl Joint {
                 at("elastic_stiffness_MPa_per_um", 1.0),
                 numbers.error(&format!("/rows/{i}/error"), ""),
             ];
-            cells.extend(more.iter().map(|column| at(column.key, 1.0)));
+            cells.extend(more.iter().map(|column| at(column.key, column.scale)));
             cells
         };
         let rows: Vec<_> = places.iter().rev().step_by(step).rev().map(row).collect();

@@ -152,9 +152,12 @@ impl Summary {
         self.bounds = self.bounds_in_words(elastic);
         let worst = loading().filter_map(|row| row.error).fold(0.0, f64::max);
         if worst > SEEN_ERROR {
+            let worst = match worst <= 1.0 {
+                true => format!("uncertain by up to {} %", rounded(100.0 * worst)),
+                false => "not known".into(),
+            };
             self.warnings.push(format!(
-                "the stiffness of single loads is uncertain by up to {} %: the contact is made of few pixels there; column error tells where",
-                rounded(100.0 * worst)
+                "the stiffness of single loads is {worst}: the contact is made of few pixels there; column error tells where"
             ));
         }
         let gaps = |row: &JointRow| [row.critical_gap_x_um, row.critical_gap_y_um];

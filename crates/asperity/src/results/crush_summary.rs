@@ -9,7 +9,7 @@ use asperity_formats::memory::read_file;
 use asperity_simulation::record::rows::{Errors, ErrorsAlong, OliverPharr, Summary as Numbers};
 use asperity_simulation::refine::work_to_keep;
 use asperity_simulation::run::Outcome;
-use asperity_simulation::scene::{Scene as Tables, Smoothing};
+use asperity_simulation::scene::{Numerics as Given, Scene as Tables, Smoothing};
 use asperity_solver::body::islands::Island;
 use serde::de::Error as _;
 use serde::ser::Error as _;
@@ -47,6 +47,9 @@ pub struct Summary {
     pub scene: Box<Tables>,
     /// Version of this program.
     pub version: String,
+    /// The words of the scene that kept it from being refined, and what lifts them; not in the file.
+    #[serde(skip)]
+    pub(crate) single: Option<&'static str>,
 }
 
 impl Deref for Summary {
@@ -221,12 +224,25 @@ columns! {
 
 /// Share of the kinematic hardening up to which a bar does not yield in reverse before its load is gone.
 const FREE_SHARE: f64 = 0.5;
+/// Yield stress over Young's modulus of the softest metals (lead, indium) is twice that.
+const LEAST_YIELD_STRAIN: f64 = 5e-5;
 
 impl Summary {
     /// The summary of a run of `scene`, which took `wall_s` seconds.
-    pub(crate) fn new(outcome: &Outcome, scene: Tables, stopped: Option<String>, wall_s: f64) -> Summary {
+    pub(crate) fn new(outcome: &Outcome, given: &Tables, stopped: Option<String>, wall_s: f64) -> Summary {
+        let single = match &given.numerics {
+            Given { elements_in_contact: Some(_), .. } => {
+                Some("the numbers of [numerics] stay as they are given; without numerics.elements_in_contact")
+            }
+            Given { refine: Some(false), .. } => {
+                Some("it was to run once; without --no-refine, or numerics.refine = false,")
+            }
+            _ => None,
+        };
+        let scene = Tables { numerics: outcome.numbers.numerics(), ..given.clone() };
         Summary {
             stopped,
+            single,
             numbers: outcome.summary.clone(),
             elastic_islands: outcome.elastic_islands.clone(),
             wall_s,
@@ -286,6 +302,14 @@ impl Summary {
                 ));
             }
         }
+        let table = self.scene.material.hardening_table.as_ref().and_then(|rows| Some(rows.first()?.1));
+        let yields_at =
+            self.scene.material.yield_stress.or(table).map(|s| s.0 / self.scene.material.youngs_modulus.0);
+        if let Some(strain) = yields_at.filter(|strain| *strain < LEAST_YIELD_STRAIN) {
+            warnings.push(format!(
+                "the metal yields at {:.0e} of its Young's modulus, metals at 1e-4 and above: look at the units of both", strain
+            ));
+        }
         let share = self.scene.material.moving_share();
         if share > FREE_SHARE && self.residual_depth.is_some() {
             warnings.push(format!(
@@ -315,20 +339,16 @@ impl Summary {
         let work = work_to_keep(over);
         // beyond that the order of the errors foretells nothing
         let work = if work > 1000.0 { "more than 1000".into() } else { format!("about {work:.0}") };
-        match self.rounds {
+        match (self.rounds, self.single) {
             _ if self.scene.mesh.is_some() => "the mesh is given, and stays; give a finer one".into(),
-            1 if self.scene.numerics.elements_in_contact.is_some() => format!(
-                "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact the run is refined by itself, at \
-                 {work} times the work"
-            ),
-            1 if self.scene.numerics.refine == Some(false) => format!(
-                "it was to run once; without --no-refine, or numerics.refine = false, the run is refined by itself, at {work} times the \
-                 work"
-            ),
-            1 => format!(
+            _ if self.stopped.is_some() => "the run ended before its goal, and was not refined".into(),
+            (1, Some(single)) => {
+                format!("{single} the run is refined by itself, at {work} times the work")
+            }
+            (1, None) => format!(
                 "no finer run came to its end; give a larger numerics.elements_in_contact, at {work} times the work"
             ),
-            rounds => format!(
+            (rounds, _) => format!(
                 "{rounds} rounds of finer numbers did not bring it below; that would take {work} times the work of the last one, \
                  with a larger numerics.elements_in_contact"
             ),

@@ -203,9 +203,9 @@ fn known_to(error: f64) -> String {
     if error <= SMALL {
         format!("(± {} %)", with_digits(100.0 * error, 2))
     } else if 1.0 + error <= ORDER {
-        format!("(within an order of magnitude: by a factor of {factor})")
+        format!("(within an order of magnitude: a factor of {factor} either way)")
     } else if error.is_finite() {
-        format!("(its order of magnitude is not known: by a factor of {factor}; nearly closed)")
+        format!("(its order of magnitude is not known: a factor of {factor} either way; nearly closed)")
     } else {
         "(nothing bounds its error)".into()
     }

@@ -142,7 +142,7 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
     let [flat, steep] = USUAL_SLOPES_DEG;
     let unit = Some(parameters.beta_deg()).filter(|beta| *beta > 0.0 && !(flat..=steep).contains(beta)).map(|beta| {
         format!(
-            "the mean slope is {beta:.3} deg; machined surfaces have {flat} to {steep}: look whether height_unit and pixel_size are right"
+            "the mean slope is {beta:.2e} deg, that of machined surfaces {flat} to {steep} deg: look whether height_unit and pixel_size are right"
         )
     });
     let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
@@ -190,7 +190,7 @@ pub(super) fn half_space_warnings(closure: Closure, one: &SpaceContact, scene: &
         .filter(|(_, error)| *error > UNSURE_LEAK);
     let doubtful = doubtful.map(|(k, error)| {
         format!(
-            "{}: the leak along {} is known up to a factor of {} alone: the paths are few pixels wide, or missing points lie in them; measure \
+            "{}: the leak along {} is known only to within a factor of {}: the paths are few pixels wide, or missing points lie in them; measure \
              finer, or fill",
             closure.name(),
             ["x", "y"][k],

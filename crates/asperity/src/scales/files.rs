@@ -44,7 +44,8 @@ impl Scales {
             let [cutoff, slope] = [row.cutoff_um, row.rms_slope].map(|v| with_digits(v, 4));
             let shares = [row.contact_area_ratio_corrected, row.plastic_share].map(|v| v.map(|v| 100.0 * v));
             let [area, plastic] = shares.map(shown);
-            let numbers = [row.mean_pressure_MPa, row.pressure_p99_MPa, row.mean_gap_um, row.leak_x_m3];
+            let numbers =
+                [row.corrected_mean_pressure(), row.pressure_p99_MPa, row.mean_gap_um, row.leak_x_m3];
             let numbers: String = numbers.map(|v| format!(" {:>10}", shown(v))).concat();
             let closure = &row.closure;
             let _ = writeln!(text, "{cutoff:>9} {slope:>9}  {closure:<28} {area:>8}{numbers} {plastic:>7}");

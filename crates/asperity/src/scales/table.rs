@@ -66,6 +66,13 @@ row! {
     }
 }
 
+impl ScaleRow {
+    /// Nominal pressure over the corrected area, MPa.
+    pub(super) fn corrected_mean_pressure(&self) -> Option<f64> {
+        Some(self.mean_pressure_MPa? * self.contact_area_ratio? / self.contact_area_ratio_corrected?)
+    }
+}
+
 row! {
     /// A row of `slopes.csv`: slopes and curvatures at one cut-off.
     SlopeRow(step: &Step) {

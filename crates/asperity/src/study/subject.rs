@@ -123,7 +123,10 @@ impl Subject {
                 for (row, closure) in rough.table.iter().zip(&rough.summary.closures) {
                     for (name, value) in flat(closure)? {
                         let name = if several { format!("{}.{name}", row.closure.name()) } else { name };
-                        columns.entry(name).or_insert(value);
+                        // of one closure its own number, as the nominal area of a half-space
+                        if !value.is_null() || !columns.contains_key(&name) {
+                            columns.insert(name, value);
+                        }
                     }
                 }
                 let status =

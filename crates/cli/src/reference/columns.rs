@@ -23,8 +23,8 @@ const CRUSH: &str = "Lengths are in µm, forces in N, pressures in MPa, energies
 
 const FOLDER: &str = "`asperity crush` also writes `curve.svg`, the force over the depth. With `[output] fields`: `fields.pvd` opens \
     all increments in ParaView; `fields_NNNN.vtu` holds stress, displacement and the rest at the nodes, averaged from the integration \
-    points, and `plastic_zone` of each cell (0 never yielded, 1 has yielded, 2 yields in this increment); `section_NNNN.svg` \
-    shows them at the peak. Ctrl-C ends a run with what it has reached.";
+    points, and `plastic_zone` of each cell (0 never yielded, 1 has yielded, 2 yields in this increment): z is the height and t or, in \
+    plane strain, y the direction out of the plane, which the file draws in its plane x, y; `section_NNNN.svg` shows them at the peak. Ctrl-C ends a run with what it has reached.";
 
 const STUDY: &str = "`results.csv` has a row per run, in the order of the plan: the varied keys as the scene has them, every number of \
     the run's summary under its key (those of a table behind its name and a point, `errors.force`; of a rough scene with several \

@@ -9,10 +9,12 @@ const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p
 
 const MESH: &str = "save its points as text x y z on a regular grid, or its heights as .x3p or .sur";
 
+const GXF: &str = "save it as a text grid of Surfer (DSAA, .grd) or ESRI (.asc), or as XYZ";
+
 const GREY: &str = "a picture of grey levels (.pgm, .pfm)";
 
 /// Beginning, name, and what to do.
-const KINDS: [(&[u8], &str, &str); 24] = [
+const KINDS: [(&[u8], &str, &str); 27] = [
     (b"\x89PNG", "a PNG picture", PICTURE),
     (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
     (b"GIF8", "a GIF picture", PICTURE),
@@ -38,6 +40,13 @@ const KINDS: [(&[u8], &str, &str); 24] = [
         "export the heights as .gwy, .gsf or text (Gwyddion opens it)",
     ),
     (b"WSxM file copyright", "a WSxM image (.stp, .top)", "export the heights as text with a header in WSxM"),
+    (
+        b"ISO/TC 201 SPM data transfer format",
+        "an ISO 28600 file (.spm)",
+        "export the heights as .gwy, .gsf or text (Gwyddion opens it)",
+    ),
+    (b"#TITLE", "a GXF grid (.gxf)", GXF),
+    (b"#POINTS", "a GXF grid (.gxf)", GXF),
     (b"ply", "a mesh of points (.ply)", MESH),
     (
         b"Zygo ASCII Data File",

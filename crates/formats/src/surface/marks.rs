@@ -22,8 +22,10 @@ const MARKS: [f64; 13] = [
 /// Distance of a mark from all heights, in ranges of these.
 const LEAST_DISTANCE: f64 = 1.0;
 
-/// The same of 0, which also is the floor of a map that a program made: then heights follow close above it.
+/// The same of 0 that stands there more than once, and of 0 that stands often among heights of many digits;
+/// it also is the floor of a map that a program made: then heights follow close above it.
 const DISTANCE_OF_ZERO: f64 = 1.0;
+const DISTANCE_OF_ZERO_AMONG_DIGITS: f64 = 0.25;
 /// The same of a number that is none of these, but stands there more than once; and of one of a few digits
 /// that stands there more often, among heights of more.
 const DISTANCE_OF_REPEATED: f64 = 10.0;
@@ -54,13 +56,14 @@ pub(super) fn refuse(heights: &[f64], request: &Request<'_>) -> Result<(), ReadE
         let [low, high] = range(Some(end));
         let distance = (low - end).max(end - high);
         let count = heights.iter().filter(|z| **z == end).count();
+        let is_among_digits =
+            || count >= TIMES_OF_ROUND && is_round(end) && !heights.iter().all(|z| is_round(*z));
         let least = match count {
             _ if MARKS.contains(&end) => LEAST_DISTANCE,
             1 => DISTANCE_OF_ANY,
+            _ if end == 0.0 && is_among_digits() => DISTANCE_OF_ZERO_AMONG_DIGITS,
             _ if end == 0.0 => DISTANCE_OF_ZERO,
-            _ if count >= TIMES_OF_ROUND && is_round(end) && !heights.iter().all(|z| is_round(*z)) => {
-                DISTANCE_OF_ROUND
-            }
+            _ if is_among_digits() => DISTANCE_OF_ROUND,
             _ => DISTANCE_OF_REPEATED,
         };
         if high > low && distance > least * (high - low) {

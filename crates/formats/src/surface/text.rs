@@ -390,7 +390,7 @@ fn refuse_profile(grid: &Grid<'_>, is_told: bool) -> Result<(), ReadError> {
     let problem = if columns.min(rows) == 1 && columns.max(rows) > 2 {
         "holds one row or column of numbers: this is a profile, a map has at least 2 x 2 points; if it is a map, say above it how many columns and rows it has, like Columns: 60 and Rows: 40".to_string()
     } else if along {
-        "holds places and heights along a line: this is a profile x, z, not a map; `asperity crush` takes one as asperity.profile".into()
+        "holds places and heights along a line: this is a profile x, z, not a map; `asperity crush` takes one with its summits as [[profile]] file, a single asperity as asperity.profile".into()
     } else if columns <= MOST_COLUMNS_OF_POINTS
         && rows >= ROWS_OF_NO_MAP * columns
         && (columns <= 3 || !is_told)

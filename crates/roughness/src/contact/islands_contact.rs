@@ -28,7 +28,7 @@ pub enum ContactError {
     /// More than the surface carries when fully in contact.
     #[error(
         "a nominal pressure of {wanted_mpa} MPa is out of reach: with closure \"{closure}\" the largest load of this surface \
-         is {largest_mpa} MPa; lower [load] pressure, or give a separation"
+         is {largest_mpa:.4} MPa; lower [load] pressure, give a separation, or look whether height_unit is right"
     )]
     Unreachable {
         /// The pressure asked for, MPa.

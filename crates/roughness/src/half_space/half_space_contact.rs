@@ -30,8 +30,8 @@ const LOOSER: f64 = 10.0;
 pub enum HalfSpaceError {
     /// More than the limit on every pixel.
     #[error(
-        "a nominal pressure of {wanted_mpa} MPa is out of reach: with no pixel above {limit_mpa} MPa the whole surface carries \
-         less than {limit_mpa} MPa; lower the pressure, or give a harder metal (a limit that follows from the yield stress is that of the \
+        "a nominal pressure of {wanted_mpa} MPa is out of reach: with no pixel above {limit_mpa:.0} MPa the whole surface carries \
+         less than that; lower the pressure, or give a harder metal (a limit that follows from the yield stress is that of the \
          slopes under this load)"
     )]
     Limit {

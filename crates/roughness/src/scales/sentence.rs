@@ -19,7 +19,7 @@ const TINY: f64 = 1e-3;
 const WORDS: [(&str, Quantity, bool, f64); 6] = [
     ("the elastic contact area", Quantity::Area, false, 1.0),
     ("the contact area of this metal", Quantity::Area, true, 1.0),
-    ("the pressure that 99 % of the contact are below", Quantity::HighPressure, true, 1e6),
+    ("the 99th percentile of the contact pressure", Quantity::HighPressure, true, 1e6),
     ("the mean gap", Quantity::MeanGap, true, 1e-6),
     ("the leak along x", Quantity::LeakX, true, 1.0),
     ("the leak along y", Quantity::LeakY, true, 1.0),
@@ -78,7 +78,7 @@ impl Scales {
             parts.push(format!("the map is too small for {}", small.join(", ")));
         }
         if let Some(ended) = self.hardness_ends() {
-            parts.push(format!("from {} um on hardness ends the growth of pressure", micrometres(ended)));
+            parts.push(format!("from {} um on the hardness limits the pressure", micrometres(ended)));
         }
         let grows = if self.growth.goes_on() { "goes on below" } else { "ends above" };
         format!(

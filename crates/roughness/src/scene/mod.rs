@@ -288,7 +288,10 @@ impl LoadScene {
             }
             (None, Some(d)) => Ok(Load::Separation(d.0)),
             (None, None) => error("load", "give pressure = \"200 MPa\" or separation = \"1 um\""),
-            (Some(_), Some(_)) => error("load.separation", "give either pressure or separation, not both"),
+            (Some(_), Some(_)) => error(
+                "load.separation",
+                "give either pressure or separation, not both: --set \"load={separation='1 um'}\" gives one in place of the other",
+            ),
         }
     }
 }

@@ -12,7 +12,7 @@ use thiserror::Error;
 pub enum FilterError {
     /// The cut-off does not fit the map.
     #[error(
-        "{name} = {cutoff_um} µm must be between two pixels ({least_um} µm) and the size of the map ({most_um} µm)"
+        "{name} = {cutoff_um} µm must be at least two pixels ({least_um} µm) and at most the size of the map ({most_um} µm)"
     )]
     Cutoff {
         /// The filter.

@@ -332,6 +332,11 @@ fn marks_of_missing_points_are_honoured_or_asked_for() {
         let forced = Request { override_file: true, ..Request::default() };
         assert_eq!(asked("a.txt", &text, &forced).unwrap().heights[4], mark);
     }
+    // zeros apart from heights of many digits, and a floor of a map that a program made
+    let zeros = "3.12161 2.94512 0 2.76613\n0 2.62104 4.52295 2.47166\n2.46757 0 2.51078 2.59399\n";
+    assert!(found("a.txt", zeros).unwrap_err().contains("missing_value = 0"));
+    assert!(found("a.txt", &zeros.replace("2.4", "0.2")).is_ok());
+    assert!(found("a.txt", "3 2 0 3\n0 2 4 2\n2 0 2 2\n").is_ok());
     // a height among others
     assert!(found("a.txt", "9000 9500 9999\n8000 8100 9800\n").is_ok());
 }

@@ -390,6 +390,3 @@ fn moved<'a>(value: DeValue<'a>, span: &Range<usize>) -> Spanned<DeValue<'a>> {
     };
     Spanned::new(span.clone(), value)
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,11 @@
 //! Claims about TOML files and overrides.
 
-use super::*;
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use asperity::error::InputError;
+use asperity::input::toml_file::*;
 use serde::Deserialize;
+use std::path::Path;
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
