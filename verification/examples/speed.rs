@@ -23,7 +23,6 @@ use asperity_verification::single_asperity::{crush, finely_meshed, prepared, sce
 use rayon::prelude::*;
 use std::error::Error;
 use std::ops::ControlFlow;
-use std::process::Command;
 
 /// Levels with the runs of which the quickest counts.
 const LEVELS: [(&str, Accuracy, usize); 3] = [
@@ -62,7 +61,7 @@ fn profile(
     element: ElementChoice,
     repeats: usize,
     floor: &Roofline,
-) -> Result<(String, f64), Box<dyn Error>> {
+) -> Result<String, Box<dyn Error>> {
     let mut scene = scene(accuracy)?;
     scene.numerics.element = Some(element);
     let whole = least(&scene, repeats);
@@ -84,15 +83,12 @@ fn profile(
             .map(|part| format!("{:.0}", 100.0 * part.max(0.0) / whole))
             .join(" | ");
     let kind = if problem.mesh.kind == ElementKind::Quad8 { "q8r" } else { "q4" };
-    Ok((
-        format!(
-            "| `{name}` | {kind} | {} | {} | {} | {} | {shares} | {over:.1} | {whole:.3} |",
-            s.dofs,
-            s.newton_iterations,
-            c.assemblies + c.residuals,
-            c.factorisations
-        ),
-        over,
+    Ok(format!(
+        "| `{name}` | {kind} | {} | {} | {} | {} | {shares} | {over:.1} | {whole:.3} |",
+        s.dofs,
+        s.newton_iterations,
+        c.assemblies + c.residuals,
+        c.factorisations
     ))
 }
 
@@ -127,12 +123,17 @@ fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box
     Ok((path.model.body().analysis.dofs.count, seconds, least_seconds))
 }
 
-/// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that
-/// `verification/measure/peers` writes.
-fn beside_calculix() -> Option<String> {
+/// CalculiX's core seconds over ours at equal accuracy, geometric means with our cheapest level and at
+/// `standard`, from the table that `verification/measure/peers` writes.
+fn beside_calculix() -> Option<[String; 2]> {
     let table = std::fs::read_to_string("verification/results/peers.md").ok()?;
-    let line = table.lines().find(|line| line.contains("geometric mean"))?;
-    Some(line.split_once("geometric mean ")?.1.split([',', ';', ' ']).next()?.to_string())
+    let mean =
+        |line: &str| Some(line.split_once("geometric mean ")?.1.split([',', ';', ' ']).next()?.to_string());
+    let [cheapest, standard] = [false, true].map(|at_standard| {
+        let mut lines = table.lines().filter(|line| line.starts_with("within 1 % of the common value"));
+        lines.find(|line| line.contains("ours at `standard`") == at_standard).and_then(mean)
+    });
+    Some([cheapest?, standard?])
 }
 
 /// The name of the processor.
@@ -142,21 +143,6 @@ fn processor() -> String {
     name.map_or_else(|| std::env::consts::ARCH.to_string(), |(_, name)| name.trim().to_string())
 }
 
-/// Minutes in which the workspace is built from nothing without optional features.
-fn build() -> Result<f64, Box<dyn Error>> {
-    let folder = tempfile::tempdir()?;
-    let (status, seconds) = timed(|| {
-        Command::new("cargo")
-            .args(["build", "--release", "--quiet", "-p", "asperity", "--target-dir"])
-            .arg(folder.path())
-            .status()
-    });
-    if !status?.success() {
-        return Err("the build failed".into());
-    }
-    Ok(seconds / 60.0)
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let (mut report, _) = Report::of_example("speed", "every level");
     let floor = Roofline::measure();
@@ -164,28 +150,19 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     report.line("Shares of the time of a run on one thread, in percent:\n");
     report.table("| level | element | unknowns | iterations | assemblies | factorisations | mesh and order | residuals | tangents | factorise | solve | rest of the run | companion | over the floor | run s |");
-    let mut over = Vec::new();
     for (name, accuracy, repeats) in LEVELS {
         for element in [ElementChoice::Q8r, ElementChoice::Q4] {
-            let (line, factor) = on_threads(1, || {
+            let line = on_threads(1, || {
                 profile(name, accuracy, element, repeats, &floor).map_err(|e| e.to_string())
             })??;
             report.line(&line);
-            if element == ElementChoice::Q8r {
-                over.push(format!("{factor:.1}"));
-            }
         }
     }
 
     report.section("Bounds");
     report.table("| | measured | bound | aim |");
-    let standard = scene(Accuracy::Standard)?;
-    let seconds = on_threads(1, || least(&standard, 5))?;
-    report.line(&format!(
-        "| single asperity at `standard`, loading and unloading, core seconds | {seconds:.2} | 0.12 | 0.06 |"
-    ));
-    if let Some(ratio) = beside_calculix() {
-        report.line(&format!("| CalculiX's core seconds over ours at equal accuracy, geometric mean ([peers](peers.md)) | {ratio} | 250 | 500 |"));
+    if let Some([cheapest, standard]) = beside_calculix() {
+        report.line(&format!("| CalculiX's core seconds over ours at equal accuracy ([peers](peers.md)), geometric means: cheapest level / at `standard` | {cheapest} / {standard} | 120 / 35 | 250 |"));
     }
     let sweep = Sweep::default();
     let cases = sweep.cases();
@@ -198,33 +175,26 @@ fn main() -> Result<(), Box<dyn Error>> {
     let worst =
         rows?.iter().map(|row| row.outcome.as_ref().map_or(f64::NAN, |k| k.error)).fold(0.0, f64::max);
     report.line(&format!(
-        "| {} cones of the sweep, every K within {:.2} % as stated, wall seconds on 2 threads | {seconds:.1} | 12 | 6 |",
+        "| {} cones of the sweep, every K within {:.2} % as stated, wall seconds on 2 threads | {seconds:.1} | 6 | 3 |",
         cases.len(),
         100.0 * worst
     ));
     let reference = scene(Accuracy::Reference)?;
     let [one, two] = [on_threads(1, || least(&reference, 2))?, on_threads(2, || least(&reference, 2))?];
-    report.line(&format!("| `reference`, one round, core seconds | {one:.2} | 2.5 | 1 |"));
-    report.line(&format!(
-        "| run over its floor, draft / standard / reference | {} | 4 / 3.5 / 3 | 2 |",
-        over.join(" / ")
-    ));
     let [(unknowns, single), (_, double)] = [
         on_threads(1, || loading(FINE[0]).map_err(|e| e.to_string()))??,
         on_threads(2, || loading(FINE[0]).map_err(|e| e.to_string()))??,
     ];
     report.line(&format!(
-        "| two threads over one, at {unknowns} unknowns / at `reference` | {:.2} / {:.2} | 1.5 / 1.2 | 1.8 / 1.5 |",
+        "| two threads over one, at {unknowns} unknowns / at `reference` | {:.2} / {:.2} | 1.5 / 1.4 | 1.6 |",
         single / double,
         one / two
     ));
     let (unknowns, seconds, least) =
         on_threads(1, || iteration(FINE[1], &floor).map_err(|e| e.to_string()))??;
     report.line(&format!(
-        "| an iteration at {unknowns} unknowns over its floor | {:.1} | 3 | 2 |",
+        "| an iteration at {unknowns} unknowns over the time of its operations in a dense product | {:.1} | 2 | 1.6 |",
         seconds / least
     ));
-    let minutes = build()?;
-    report.line(&format!("| full build of the command from nothing, minutes | {minutes:.1} | 4.5 | 3 |"));
     Ok(report.finish()?)
 }
