@@ -8,6 +8,7 @@ mod sheet;
 use crate::text::TextError;
 use calamine::{Data, DataRef, Reader, Xls, Xlsx};
 use sheet::{Archive, CELL_BYTES, Sheet, most_cells, refused, too_many};
+use std::fmt::Write;
 use std::io::{Cursor, Read};
 use std::panic;
 use std::sync::{Mutex, PoisonError};
@@ -42,15 +43,14 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     let sheets =
         if bytes.starts_with(ARCHIVE) { archived(bytes) } else { xls(bytes) }.map_err(TextError::whole)?;
     let most = sheets.iter().map(|sheet| sheet.numbers).max().unwrap_or(0);
-    let mut full = sheets.iter().filter(|sheet| most > 0 && 2 * sheet.numbers >= most);
+    let full = || sheets.iter().filter(|sheet| most > 0 && 2 * sheet.numbers >= most);
     let is_other = |sheet: &Sheet| {
         let name = sheet.name.to_lowercase();
         // places of points beside their heights
         let is_place = ["x", "y"].contains(&name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or(""));
         is_place || OTHERS.iter().any(|other| name.contains(other))
     };
-    let first = full.clone().next();
-    let sheet = full.find(|sheet| !is_other(sheet)).or(first);
+    let sheet = full().find(|sheet| !is_other(sheet)).or(full().next());
     let sheet = sheet.ok_or_else(|| TextError::whole("is a workbook without a number"))?;
     let columns = sheet.rows.values().flat_map(|row| row.keys());
     let width = columns.max().map_or(0, |last| *last as usize + 1);
@@ -60,7 +60,16 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     if width.saturating_mul(height) / CELL_BYTES as usize > most_cells() {
         return Err(TextError::whole(too_many()));
     }
-    let others = if sheets.len() > 1 { format!(", one of {}", sheets.len()) } else { String::new() };
+    let mut others = if sheets.len() > 1 { format!(", one of {}", sheets.len()) } else { String::new() };
+    let alike: Vec<_> = full().filter(|other| !is_other(other) && other.name != sheet.name).collect();
+    if let [other, ..] = alike[..] {
+        let number = alike.len();
+        let _ = write!(
+            others,
+            " ({number} with as many numbers, \"{}\" first, are not read: give a file each)",
+            other.name
+        );
+    }
     Ok((sheet.text(), format!("sheet \"{}\"{others} of a workbook as", sheet.name)))
 }
 
