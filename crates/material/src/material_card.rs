@@ -136,8 +136,8 @@ impl MaterialCard {
         }
     }
 
-    /// The rows with their stress in a unit, in which Young's modulus of the file is `away` percent off that of
-    /// the scene.
+    /// The rows with their stress in a unit, in which Young's modulus of the file is `away` percent off that
+    /// of the scene.
     fn of_rows(
         plastic: &Block<'_>,
         (unit, scale): (&str, f64),

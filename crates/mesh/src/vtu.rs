@@ -120,8 +120,8 @@ fn next_array(text: &str) -> Option<(&str, &str, &str)> {
     Some((&text[..start], &text[start..end], &text[end..]))
 }
 
-/// The numbers of an array in base64 behind their count of bytes, compressed as one block of VTK. (vtkio gives
-/// its compressor every number by itself, which takes most of the time of a file.)
+/// The numbers of an array in base64 behind their count of bytes, compressed as one block of VTK. (vtkio
+/// gives its compressor every number by itself, which takes most of the time of a file.)
 fn compressed(plain: &str) -> Result<String, Box<dyn std::error::Error>> {
     let bytes = BASE64_STANDARD.decode(plain)?;
     let numbers = bytes.get(size_of::<u64>()..).unwrap_or_default();
@@ -195,7 +195,8 @@ mod tests {
         };
         let (of_nodes, of_cells) = (fields("at_nodes", mesh.nodes.len()), fields("in_cells", 4096));
         let mut text = Vec::new();
-        write_vtu(&mut text, &mesh, 1.0, &[of_nodes.clone()], &[of_cells.clone()], &[("time", 0.5)]).unwrap();
+        let [nodes, cells] = [&of_nodes, &of_cells].map(std::slice::from_ref);
+        write_vtu(&mut text, &mesh, 1.0, nodes, cells, &[("time", 0.5)]).unwrap();
         let mut rest = std::str::from_utf8(&text).unwrap();
         let mut sizes = Vec::new();
         while let Some((_, array, after)) = next_array(rest) {
