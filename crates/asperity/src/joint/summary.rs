@@ -153,11 +153,11 @@ impl Summary {
         let worst = loading().filter_map(|row| row.error).fold(0.0, f64::max);
         if worst > SEEN_ERROR {
             let worst = match worst <= 1.0 {
-                true => format!("uncertain by up to {} %", rounded(100.0 * worst)),
-                false => "not known".into(),
+                true => format!("up to {} %", rounded(100.0 * worst)),
+                false => "more than 100 %".into(),
             };
             self.warnings.push(format!(
-                "the stiffness of single loads is {worst}: the contact is made of few pixels there; column error tells where"
+                "the stiffness of single loads is uncertain by {worst}: the contact is made of few pixels there; column error tells where"
             ));
         }
         let gaps = |row: &JointRow| [row.critical_gap_x_um, row.critical_gap_y_um];
