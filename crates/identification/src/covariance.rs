@@ -1,6 +1,6 @@
 //! Covariance of the differences between a measurement and what finite elements expect.
 
-use super::experiment::{Data, Experiment};
+use super::experiment::{Data, Expected, Experiment};
 use super::imprint;
 use super::interpolation::alike;
 use super::parameters::Unknowns;
@@ -32,24 +32,35 @@ struct ErrorOfAPoint {
     share: f64,
 }
 
+/// Parts of the covariance that are the model's: errors of the force, of the slope where unloading begins, of
+/// the recovery; and what is left of the trend of all numbers.
+pub const MODEL_PARTS: usize = 4;
+/// Change of a logarithm by which its effect on the differences is taken.
+const CHANGE: f64 = 1e-4;
+
 /// Covariance of the differences of a measurement: what belongs to the data, and what each relative error of
 /// the finite elements adds for a variance of 1.
 #[derive(Clone, Debug)]
 pub struct Covariance {
     noise: DMatrix<f64>,
-    /// Of an error of the force, of the slope where unloading begins, of the recovery.
-    model: [DMatrix<f64>; 3],
+    model: [DMatrix<f64>; MODEL_PARTS],
 }
 
 impl Covariance {
     /// That of data of which one error of the finite elements is known alone.
     fn of_the_first(noise: DMatrix<f64>, model: DMatrix<f64>) -> Covariance {
+        let none = || DMatrix::zeros(noise.nrows(), noise.ncols());
+        Covariance { model: [model, none(), none(), none()], noise }
+    }
+
+    /// That of data of which the errors of force, slope and recovery are known.
+    fn of_three(noise: DMatrix<f64>, [force, slope, recovery]: [DMatrix<f64>; 3]) -> Covariance {
         let none = DMatrix::zeros(noise.nrows(), noise.ncols());
-        Covariance { model: [model, none.clone(), none], noise }
+        Covariance { model: [force, slope, recovery, none], noise }
     }
 
     /// The factor of the covariance with the model's standard deviations; `None` where it has none.
-    pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
+    pub fn factor(&self, deviations: [f64; MODEL_PARTS]) -> Option<Cholesky<f64, Dyn>> {
         self.sum(deviations).cholesky()
     }
 
@@ -59,23 +70,22 @@ impl Covariance {
         &self,
         factor: &Cholesky<f64, Dyn>,
         whitened: &DVector<f64>,
-    ) -> [DVector<f64>; 3] {
+    ) -> [DVector<f64>; MODEL_PARTS] {
         let lower = factor.l_dirty();
         let weights = lower.tr_solve_lower_triangular(whitened);
-        [0, 1, 2].map(|k| {
-            let part = &self.model[k];
+        self.model.each_ref().map(|part| {
             let change = weights.as_ref().and_then(|w| lower.solve_lower_triangular(&(part * w)));
             change.map_or(DVector::zeros(whitened.len()), |change| -0.5 * change)
         })
     }
 
     /// Growth of ln det C with each variance of the model.
-    pub fn growth_of_the_logarithm(&self, factor: &Cholesky<f64, Dyn>) -> [f64; 3] {
+    pub fn growth_of_the_logarithm(&self, factor: &Cholesky<f64, Dyn>) -> [f64; MODEL_PARTS] {
         let inverse = factor.inverse();
-        [0, 1, 2].map(|k| inverse.dot(&self.model[k]))
+        self.model.each_ref().map(|part| inverse.dot(part))
     }
 
-    fn sum(&self, deviations: [f64; 3]) -> DMatrix<f64> {
+    fn sum(&self, deviations: [f64; MODEL_PARTS]) -> DMatrix<f64> {
         let mut sum = self.noise.clone();
         for (part, deviation) in self.model.iter().zip(deviations) {
             sum.zip_apply(part, |entry, more| *entry += deviation * deviation * more);
@@ -91,24 +101,25 @@ pub fn log_determinant(factor: &Cholesky<f64, Dyn>) -> f64 {
 
 impl Experiment {
     /// Relative standard deviations of what finite elements expect at `point`: of the force, of the slope
-    /// where unloading begins, of the recovery.
-    pub fn model_deviations(&self, unknowns: &Unknowns, point: &[f64]) -> Option<[f64; 3]> {
+    /// where unloading begins, of the recovery; and the share of the scatter of all numbers that is left.
+    pub fn model_deviations(&self, unknowns: &Unknowns, point: &[f64]) -> Option<[f64; MODEL_PARTS]> {
         let left = self.emulator.left(&self.design_point(unknowns, point)?, self.of_the_loading());
         let told = self.told_deviations();
-        Some([0, 1, 2].map(|i| told[i].hypot(left[i])))
+        Some(std::array::from_fn(|i| told[i].hypot(left[i])))
     }
 
     /// The same at a computed metal: what finite elements are asked for can bring no less.
-    pub fn least_deviations(&self) -> [f64; 3] {
+    pub fn least_deviations(&self) -> [f64; MODEL_PARTS] {
         let left = self.emulator.least_left(self.errors[0], self.is_imprint(), self.of_the_loading());
         let told = self.told_deviations();
-        [0, 1, 2].map(|i| told[i].hypot(left[i]))
+        std::array::from_fn(|i| told[i].hypot(left[i]))
     }
 
     /// Those of finite elements by themselves.
-    pub fn told_deviations(&self) -> [f64; 3] {
+    pub fn told_deviations(&self) -> [f64; MODEL_PARTS] {
         // the stated errors are 95 % bounds
-        self.errors.map(|error| (0.5 * error).hypot(self.model_error))
+        let [force, slope, recovery] = self.errors.map(|error| (0.5 * error).hypot(self.model_error));
+        [force, slope, recovery, 0.0]
     }
 
     /// Growth of ln det C over that of a computed metal, by what the emulator leaves open at `point`.
@@ -131,7 +142,7 @@ impl Experiment {
     /// Covariance of the differences at `point`, in its parts.
     pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Covariance> {
         let expected = self.expected(unknowns, point, false)?;
-        let covariance = match &self.data {
+        let mut covariance = match &self.data {
             Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
                 let given = [
                     loading_curvature.map(|_| [1.0, 0.0, 0.0]),
@@ -145,7 +156,7 @@ impl Experiment {
                     DMatrix::from_fn(count, count, |i, j| if i == j { effects[i][k].powi(2) } else { 0.0 })
                 };
                 let noise = DMatrix::identity(count, count) * self.noise.powi(2);
-                Covariance { noise, model: [part(0), part(1), part(2)] }
+                Covariance::of_three(noise, [part(0), part(1), part(2)])
             }
             Data::Curve(measured) => self.covariance_of_a_curve(measured),
             Data::Imprint(imprint) => {
@@ -164,10 +175,27 @@ impl Experiment {
                 Covariance::of_the_first(noise, diagonal(&|k, _| imprint::ERRORS_OF_NUMBERS[k]))
             }
         };
+        if let Some(scatter) = self.emulator.scatter_of_the_numbers() {
+            let effects = self.effects_of_the_numbers(&expected)?;
+            covariance.model[MODEL_PARTS - 1] = &effects * scatter * effects.transpose();
+        }
         let Some(pyramid) = self.pyramid else { return Some(covariance) };
         // that of the metal at the point: where it grows with the metal, a fit would flee to where it is wide
-        let corrected = pyramid.correction(&self.design_point(unknowns, point)?).deviations;
+        let [force, slope, recovery] = pyramid.correction(&self.design_point(unknowns, point)?).deviations;
+        let corrected = [force, slope, recovery, 0.0];
         Some(Covariance { noise: covariance.sum(corrected), ..covariance })
+    }
+
+    /// Growth of each difference with each of the logarithms that are expected.
+    fn effects_of_the_numbers(&self, expected: &Expected) -> Option<DMatrix<f64>> {
+        let here = DVector::from_vec(self.differences_from(expected));
+        let columns = (0..expected.logarithms.len()).map(|j| {
+            let mut moved = expected.clone();
+            moved.logarithms[j] += CHANGE;
+            (DVector::from_vec(self.differences_from(&moved)) - &here) / CHANGE
+        });
+        let columns: Vec<DVector<f64>> = columns.collect();
+        (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
     }
 
     fn covariance_of_a_curve(&self, measured: &Measured) -> Covariance {
@@ -222,7 +250,7 @@ impl Experiment {
             let together = if of_one_stretch { self.noise_correlation.powi(steps) } else { 0.0 };
             noise(i) * noise(j) * together
         });
-        Covariance { noise, model: [force, slope, whole] }
+        Covariance::of_three(noise, [force, slope, whole])
     }
 
     /// Standard deviation of the depth of a point of the unloading by noise of depths, over the depth of the
@@ -252,23 +280,25 @@ mod tests {
             &along * along.transpose()
         };
         let noise = DMatrix::from_fn(4, 4, |i, j| if i == j { 1.0 + 0.1 * i as f64 } else { 0.2 });
-        let covariance = Covariance { noise, model: [part(0), part(1), part(2)] };
+        let covariance = Covariance { noise, model: [part(0), part(1), part(2), part(3)] };
         let differences = DVector::from_vec(vec![0.7, -1.1, 0.4, 2.0]);
-        let variances = [0.5, 1.5, 0.2_f64];
-        let factor = |variances: [f64; 3]| covariance.factor(variances.map(f64::sqrt)).unwrap();
-        let whitened =
-            |variances: [f64; 3]| factor(variances).l_dirty().solve_lower_triangular(&differences).unwrap();
+        let variances = [0.5, 1.5, 0.2, 0.7_f64];
+        let factor = |variances: [f64; MODEL_PARTS]| covariance.factor(variances.map(f64::sqrt)).unwrap();
+        let whitened = |variances: [f64; MODEL_PARTS]| {
+            factor(variances).l_dirty().solve_lower_triangular(&differences).unwrap()
+        };
         let here = factor(variances);
         let changes = covariance.growth_by_variances(&here, &whitened(variances));
         let logarithms = covariance.growth_of_the_logarithm(&here);
-        for k in 0..3 {
+        for k in 0..MODEL_PARTS {
             let step = 1e-5;
             let moved = |by: f64| {
                 let mut there = variances;
                 there[k] += by;
                 there
             };
-            let slope = |of: &dyn Fn([f64; 3]) -> f64| (of(moved(step)) - of(moved(-step))) / (2.0 * step);
+            let slope =
+                |of: &dyn Fn([f64; MODEL_PARTS]) -> f64| (of(moved(step)) - of(moved(-step))) / (2.0 * step);
             let of_the_sum = slope(&|v| whitened(v).norm_squared());
             let told = 2.0 * whitened(variances).dot(&changes[k]);
             assert!((told - of_the_sum).abs() < 1e-7, "{k} {told} {of_the_sum}");

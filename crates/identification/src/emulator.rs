@@ -4,8 +4,10 @@
 //! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of
 //! runs. Every further run draws the process to itself; where none is near, the process says how much may be
 //! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
-//! run a level).
+//! run a level). Of a curve's runs most of it is the mesh, which differs from metal to metal: the process knows
+//! only the share that varies smoothly.
 
+use super::covariance::{MODEL_PARTS, log_determinant};
 use super::imprint::error_sizes;
 use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
@@ -20,6 +22,14 @@ struct Node {
     logarithms: Vec<f64>,
     /// Relative error of the answer.
     error: f64,
+}
+
+/// A metal of which a finer level answered.
+#[derive(Clone, Debug)]
+struct Met {
+    place: Vec<f64>,
+    /// Variance of its mesh over that of the runs, by the errors that both state.
+    share: f64,
 }
 
 /// Mean function of the answers, where none is near.
@@ -37,6 +47,10 @@ pub struct Emulator {
     lengths: Vec<f64>,
     /// The scatter that is left of the trend, one for each logarithm.
     amplitudes: Vec<f64>,
+    /// Covariance of what is left of the trend of a curve, by a polynomial through its runs.
+    rest: Option<DMatrix<f64>>,
+    /// Share of what is left that varies smoothly with the metal; the rest is the mesh's.
+    smooth_share: f64,
     /// That over which the error of an answer counts: of the loading, or of heights far from a rim.
     scatter: f64,
     nodes: Vec<Node>,
@@ -44,6 +58,8 @@ pub struct Emulator {
     weights: DMatrix<f64>,
     /// Correction by a finer level, added to all of them.
     lift: Vec<f64>,
+    /// The metal of which that level answered last.
+    met: Option<Met>,
 }
 
 /// The coefficient of friction whose tool holds a surface like one that sticks: most of it does from there
@@ -111,6 +127,15 @@ fn share_of_an_error(error: f64, amplitude: f64) -> f64 {
     (0.5 * error / amplitude).powi(2).max(1e-6)
 }
 
+/// Shares of what is left that are tried as the one that varies smoothly with the metal.
+const SHARES_TRIED: usize = 20;
+
+/// Correlations of which a `share` is smooth.
+fn partly(alike: &DMatrix<f64>, share: f64) -> DMatrix<f64> {
+    let own = (1.0 - share) * DMatrix::identity(alike.nrows(), alike.ncols());
+    share * alike + own
+}
+
 /// Least scatter of a curve about a polynomial: what the mesh, which differs from metal to metal, leaves.
 /// That of heights is their error.
 const MIN_AMPLITUDE: f64 = 0.003;
@@ -133,10 +158,15 @@ impl Emulator {
         let trend = Trend::Polynomial(polynomial);
         let mut emulator = if imprint {
             let least = runs.iter().map(|(_, r)| 0.5 * r.errors[0]).fold(0.0, f64::max);
+            let left = left.diagonal().iter().map(|square| square.sqrt()).collect();
             Emulator::of_an_imprint(trend, lengths, left, least)
         } else {
-            let amplitudes = left.into_iter().map(|l| l.max(MIN_AMPLITUDE)).collect();
-            Emulator::new(trend, lengths, amplitudes)
+            let mut rest = left;
+            for i in 0..rest.nrows() {
+                rest[(i, i)] = rest[(i, i)].max(MIN_AMPLITUDE.powi(2));
+            }
+            let amplitudes = rest.diagonal().iter().map(|square| square.sqrt()).collect();
+            Emulator { rest: Some(rest), ..Emulator::new(trend, lengths, amplitudes) }
         };
         for (place, response) in runs {
             emulator.push(place.clone(), response);
@@ -148,7 +178,20 @@ impl Emulator {
     fn new(trend: Trend, lengths: Vec<f64>, amplitudes: Vec<f64>) -> Emulator {
         let (weights, lift) = (DMatrix::zeros(0, amplitudes.len()), vec![0.0; amplitudes.len()]);
         let scatter = amplitudes.first().copied().unwrap_or(0.01);
-        Emulator { trend, lengths, amplitudes, scatter, nodes: Vec::new(), factor: None, weights, lift }
+        let (nodes, factor, rest, smooth_share, met) = (Vec::new(), None, None, 1.0, None);
+        Emulator {
+            trend,
+            lengths,
+            amplitudes,
+            rest,
+            smooth_share,
+            scatter,
+            nodes,
+            factor,
+            weights,
+            lift,
+            met,
+        }
     }
 
     /// That of heights of which `left` is left of the trend, and whose standard deviation by the finite
@@ -179,6 +222,9 @@ impl Emulator {
     /// same share at metals that are near each other.
     pub fn meet(&mut self, question: &DesignPoint, response: &Response) {
         let expected = self.predict(question);
+        let coarse = self.nodes.iter().map(|node| node.error.powi(2)).sum::<f64>();
+        let share = response.errors[0].powi(2) * self.nodes.len() as f64 / coarse.max(f64::MIN_POSITIVE);
+        self.met = Some(Met { place: features(question), share: share.min(1.0) });
         for ((lift, fine), coarse) in self.lift.iter_mut().zip(&response.logarithms).zip(expected) {
             *lift += fine - coarse;
         }
@@ -205,16 +251,39 @@ impl Emulator {
 
     fn renew(&mut self) {
         let count = self.nodes.len();
-        let mut matrix = DMatrix::from_fn(count, count, |i, j| {
+        let alike = DMatrix::from_fn(count, count, |i, j| {
             self.correlation(&self.nodes[i].place, &self.nodes[j].place)
         });
-        for i in 0..count {
-            matrix[(i, i)] += share_of_an_error(self.nodes[i].error, self.scatter);
-        }
         let rest = DMatrix::from_fn(count, self.amplitudes.len(), |i, j| self.nodes[i].logarithms[j]);
+        let matrix = if self.rest.is_some() {
+            self.smooth_share = self.likeliest_share(&alike, &rest);
+            partly(&alike, self.smooth_share)
+        } else {
+            let errors = self.nodes.iter().map(|node| share_of_an_error(node.error, self.scatter));
+            &alike + DMatrix::from_diagonal(&DVector::from_iterator(count, errors))
+        };
         self.factor = matrix.cholesky();
-        self.weights =
-            self.factor.as_ref().map_or(DMatrix::zeros(count, self.amplitudes.len()), |f| f.solve(&rest));
+        let solved = self.factor.as_ref().map(|f| self.smooth_share * f.solve(&rest));
+        self.weights = solved.unwrap_or_else(|| DMatrix::zeros(count, self.amplitudes.len()));
+    }
+
+    /// The share of what is left that varies smoothly with the metal, all numbers together: the likeliest one
+    /// by how alike what is left is of metals that are near each other.
+    fn likeliest_share(&self, alike: &DMatrix<f64>, rest: &DMatrix<f64>) -> f64 {
+        let misfit = |share: f64| {
+            let Some(factor) = partly(alike, share).cholesky() else { return f64::INFINITY };
+            let solved = factor.solve(rest);
+            let squares =
+                (0..rest.ncols()).map(|j| rest.column(j).dot(&solved.column(j)) / self.amplitudes[j].powi(2));
+            squares.sum::<f64>() + rest.ncols() as f64 * log_determinant(&factor)
+        };
+        let shares = (0..SHARES_TRIED).map(|k| k as f64 / SHARES_TRIED as f64);
+        shares.min_by(|a, b| misfit(*a).total_cmp(&misfit(*b))).unwrap_or(0.0)
+    }
+
+    /// Covariance of all numbers by what is left of a trend through runs; `None` of other trends.
+    pub fn scatter_of_the_numbers(&self) -> Option<&DMatrix<f64>> {
+        self.rest.as_ref()
     }
 
     /// The logarithms to be expected.
@@ -241,33 +310,75 @@ impl Emulator {
 
     /// Standard deviations of what is left of loading, slope and recovery, of which the response has
     /// `loading` numbers of the loading.
-    pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
+    pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; MODEL_PARTS] {
         let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
         let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
+        if self.rest.is_some() {
+            // near runs tell what varies smoothly, not what the mesh makes of each
+            let smooth = self.smooth_share * (1.0 - self.smooth_share * known);
+            return [0.0, 0.0, 0.0, (smooth + self.share_of_the_mesh(&place)).max(0.0).sqrt()];
+        }
         self.left_of_the_trend(1.0 - known, question.imprint, loading)
     }
 
-    /// The least that is left: of a trend that is the atlas, at a metal that was computed with a relative
-    /// `error` alone, where the trend keeps its part in what is expected; of one through a design of runs,
-    /// which tell of each other, nothing.
-    pub fn least_left(&self, error: f64, imprint: bool, loading: usize) -> [f64; 3] {
+    /// Share of the mesh in what is left at `place`: all of it until a finer level has answered, then what it
+    /// makes of the difference to the metal of which that did, and what the finer mesh makes of both.
+    fn share_of_the_mesh(&self, place: &[f64]) -> f64 {
+        let share = match (&self.met, &self.trend) {
+            (Some(met), Trend::Polynomial(polynomial)) => {
+                2.0 * met.share + polynomial.variance_of_a_difference(place, &met.place)
+            }
+            _ => 1.0,
+        };
+        (1.0 - self.smooth_share) * share
+    }
+
+    /// The least that is left: at a metal that was computed with a relative `error`, of a trend that is the
+    /// atlas, which keeps its part in what is expected; of a curve's trend through runs, what is the mesh's;
+    /// of heights, whose runs tell of each other, nothing.
+    pub fn least_left(&self, error: f64, imprint: bool, loading: usize) -> [f64; MODEL_PARTS] {
         let share = match self.trend {
             Trend::Atlas => share_of_an_error(error, self.scatter),
+            Trend::Polynomial(_) if self.rest.is_some() => {
+                let share = self.met.as_ref().map_or(1.0, |met| 2.0 * met.share) * (1.0 - self.smooth_share);
+                return [0.0, 0.0, 0.0, share.sqrt()];
+            }
             Trend::Polynomial(_) => 0.0,
         };
         self.left_of_the_trend(share / (1.0 + share), imprint, loading)
     }
 
     /// A `share` of the variance of what is left of the trend.
-    fn left_of_the_trend(&self, share: f64, imprint: bool, loading: usize) -> [f64; 3] {
+    fn left_of_the_trend(&self, share: f64, imprint: bool, loading: usize) -> [f64; MODEL_PARTS] {
         let share = share.clamp(0.0, 1.0).sqrt();
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
         if imprint {
-            return [share * self.scatter, 0.0, 0.0];
+            return [share * self.scatter, 0.0, 0.0, 0.0];
         }
-        [of(loading - 1), of(loading), of(loading + 1)]
+        [of(loading - 1), of(loading), of(loading + 1), 0.0]
     }
+}
+
+/// Covariance of the columns of `rest`, which have so many degrees of freedom: fewer runs than numbers tell
+/// correlations badly, and what they miss would count as known. So correlations are shrunk by the share of
+/// their squares that chance alone explains (Schäfer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4 (2005)
+/// 32).
+fn shrunk(rest: &DMatrix<f64>, free: f64) -> DMatrix<f64> {
+    let runs = rest.nrows() as f64;
+    let sizes: Vec<f64> = rest.column_iter().map(|c| (c.norm_squared() / runs).sqrt().max(1e-12)).collect();
+    let [mut by_chance, mut squares] = [0.0; 2];
+    for i in 0..rest.ncols() {
+        for j in 0..i {
+            let products = rest.column(i).component_mul(&rest.column(j)) / (sizes[i] * sizes[j]);
+            let mean = products.mean();
+            by_chance += products.variance() / (runs - 1.0);
+            squares += mean * mean;
+        }
+    }
+    let kept = if squares > by_chance { 1.0 - by_chance / squares } else { 0.0 };
+    let all = rest.tr_mul(rest) / free;
+    DMatrix::from_fn(all.nrows(), all.ncols(), |i, j| if i == j { all[(i, i)] } else { kept * all[(i, j)] })
 }
 
 /// A polynomial of the second degree, of the third where there are points for it, in the coordinates that
@@ -279,10 +390,13 @@ struct Polynomial {
     widths: Vec<f64>,
     cubic: bool,
     coefficients: DMatrix<f64>,
+    /// Factor of the normal equations.
+    normal: Option<Cholesky<f64, Dyn>>,
 }
 
 impl Polynomial {
-    fn fit(places: &[&[f64]], values: &[&[f64]]) -> Option<(Polynomial, Vec<f64>)> {
+    /// That through `values` at `places`, and the covariance of what it leaves of them.
+    fn fit(places: &[&[f64]], values: &[&[f64]]) -> Option<(Polynomial, DMatrix<f64>)> {
         let dimensions = places.first()?.len();
         let end =
             |i: usize, pick: fn(f64, f64) -> f64, from: f64| places.iter().map(|p| p[i]).fold(from, pick);
@@ -292,7 +406,8 @@ impl Polynomial {
         let middle = low.iter().zip(&high).map(|(l, h)| 0.5 * (l + h)).collect();
         let widths: Vec<f64> =
             low.iter().zip(&high).map(|(l, h)| if h - l > 1e-9 { 0.5 * (h - l) } else { 0.0 }).collect();
-        let mut polynomial = Polynomial { middle, widths, cubic: true, coefficients: DMatrix::zeros(0, 0) };
+        let mut polynomial =
+            Polynomial { middle, widths, cubic: true, coefficients: DMatrix::zeros(0, 0), normal: None };
         if 3 * places.len() < 5 * polynomial.terms(places[0]).len() {
             polynomial.cubic = false;
         }
@@ -307,11 +422,12 @@ impl Polynomial {
         for i in 0..count {
             normal[(i, i)] += 1e-9;
         }
-        polynomial.coefficients = normal.cholesky()?.solve(&matrix.tr_mul(&goal));
+        let normal = normal.cholesky()?;
+        polynomial.coefficients = normal.solve(&matrix.tr_mul(&goal));
+        polynomial.normal = Some(normal);
         let rest = &goal - &matrix * &polynomial.coefficients;
         let free = (places.len() - count) as f64;
-        let left = rest.column_iter().map(|c| (c.norm_squared() / free).sqrt()).collect();
-        Some((polynomial, left))
+        Some((polynomial, shrunk(&rest, free)))
     }
 
     fn terms(&self, place: &[f64]) -> Vec<f64> {
@@ -330,6 +446,13 @@ impl Polynomial {
             }
         }
         terms
+    }
+
+    /// Variance of the difference between the values at two places by the scatter of the runs, over that
+    /// scatter.
+    fn variance_of_a_difference(&self, a: &[f64], b: &[f64]) -> f64 {
+        let difference = DVector::from_vec(self.terms(a)) - DVector::from_vec(self.terms(b));
+        self.normal.as_ref().map_or(1.0, |normal| difference.dot(&normal.solve(&difference)))
     }
 
     fn predict(&self, place: &[f64]) -> Vec<f64> {

@@ -95,6 +95,7 @@ const FARTHEST_TOUCH: f64 = 0.24;
 const DOUBTED_TOUCH: f64 = 0.03;
 
 /// Predicted values of a measurement.
+#[derive(Clone, Debug)]
 pub(crate) struct Expected {
     /// E for the contact.
     modulus: f64,
@@ -186,10 +187,14 @@ impl Experiment {
         if roughly && self.is_imprint() {
             return Some(Vec::new());
         }
-        let expected = self.expected(unknowns, point, roughly)?;
-        Some(match &self.data {
+        Some(self.differences_from(&self.expected(unknowns, point, roughly)?))
+    }
+
+    /// Measured less what is `expected`.
+    pub(crate) fn differences_from(&self, expected: &Expected) -> Vec<f64> {
+        match &self.data {
             Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
-                let [curvature, slope, plastic] = self.features(&expected);
+                let [curvature, slope, plastic] = self.features(expected);
                 let logarithm = |data: &Option<f64>, model: f64| data.map(|d| (d / model).ln());
                 let all = [
                     logarithm(loading_curvature, curvature),
@@ -200,23 +205,23 @@ impl Experiment {
             }
             Data::Curve(measured) => {
                 let load = measured.loading.iter().map(|p| {
-                    let model = self.force(&expected, p[0] - expected.contact_depth, p[1]);
+                    let model = self.force(expected, p[0] - expected.contact_depth, p[1]);
                     (p[1] / model).ln()
                 });
                 let back = measured
                     .unloading
                     .iter()
-                    .map(|p| (p[0] - self.depth_back(&expected, measured.turn(), p[1])) / self.depth);
+                    .map(|p| (p[0] - self.depth_back(expected, measured.turn(), p[1])) / self.depth);
                 load.chain(back).collect()
             }
             Data::Imprint(imprint) => {
-                let depth = self.true_depth(&expected);
+                let depth = self.true_depth(expected);
                 let surface = imprint::surface(&expected.logarithms);
                 let model = imprint.read(|r| depth * surface(r / depth));
                 imprint.points.iter().zip(model).map(|(p, model)| (p[1] - model) / self.depth).collect()
             }
             Data::ImprintNumbers(numbers) => {
-                let depth = self.true_depth(&expected);
+                let depth = self.true_depth(expected);
                 let [pile_up, residual, rim] = imprint::outstanding(&expected.logarithms).map(|x| depth * x);
                 let over = |data: Option<f64>, model: f64| data.map(|d| (d - model) / self.depth);
                 let logarithm = |data: Option<f64>, model: f64| data.map(|d| (d / model).ln());
@@ -227,7 +232,7 @@ impl Experiment {
                 ];
                 all.into_iter().flatten().collect()
             }
-        })
+        }
     }
 
     /// The depth from contact of an imprint: what the machine and first touch take is no imprint.

@@ -1,6 +1,6 @@
 //! All measurements at once: residuals in standard deviations, by one covariance for each measurement.
 
-use super::covariance::{Covariance, log_determinant};
+use super::covariance::{Covariance, MODEL_PARTS, log_determinant};
 use super::experiment::Experiment;
 use super::parameters::Unknowns;
 use crate::levenberg_marquardt::{Function, ResidualFunction, Residuals, jacobian};
@@ -116,7 +116,7 @@ impl<'a> Objective<'a> {
     }
 
     /// Variances of the model at `point`, of each measurement.
-    fn variances(&self, point: &[f64]) -> Option<Vec<[f64; 3]>> {
+    fn variances(&self, point: &[f64]) -> Option<Vec<[f64; MODEL_PARTS]>> {
         let of = |e: &Experiment| Some(e.model_deviations(self.unknowns, point)?.map(|d| d * d));
         self.experiments.iter().map(of).collect()
     }
@@ -146,18 +146,18 @@ impl ResidualFunction for Objective<'_> {
         let (factors, variances) = (self.factors(point)?, self.variances(point)?);
         let whitened = self.independent(&factors, point)?;
         let each = || self.covariances.iter().zip(&factors);
-        let changes: Vec<[DVector<f64>; 3]> =
+        let changes: Vec<[DVector<f64>; MODEL_PARTS]> =
             each().zip(&whitened).map(|((c, factor), z)| c.growth_by_variances(factor, z)).collect();
         let growth = logarithm(&factors) - self.least_logarithm;
         let counts = self.least_logarithm.is_finite();
-        let growths: Vec<[f64; 3]> = each()
-            .map(|(c, factor)| if counts { c.growth_of_the_logarithm(factor) } else { [0.0; 3] })
+        let growths: Vec<[f64; MODEL_PARTS]> = each()
+            .map(|(c, factor)| if counts { c.growth_of_the_logarithm(factor) } else { [0.0; MODEL_PARTS] })
             .collect();
         Some(Box::new(move |at| {
             let (mut all, mut growth) = (Vec::new(), growth);
             let found = self.independent(&factors, at)?.into_iter().zip(self.variances(at)?);
             for (i, (mut differences, now)) in found.enumerate() {
-                for k in 0..3 {
+                for k in 0..MODEL_PARTS {
                     let more = now[k] - variances[i][k];
                     differences.axpy(more, &changes[i][k], 1.0);
                     growth += more * growths[i][k];
