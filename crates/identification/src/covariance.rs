@@ -1,5 +1,6 @@
 //! Covariance of the differences between a measurement and what finite elements expect.
 
+use super::emulator::{MODEL_PARTS, log_determinant};
 use super::experiment::{Data, Expected, Experiment};
 use super::imprint;
 use super::interpolation::alike;
@@ -32,9 +33,6 @@ struct ErrorOfAPoint {
     share: f64,
 }
 
-/// Parts of the covariance that are the model's: errors of the force, of the slope where unloading begins, of
-/// the recovery; and what is left of the trend of all numbers.
-pub const MODEL_PARTS: usize = 4;
 /// Change of a logarithm by which its effect on the differences is taken.
 const CHANGE: f64 = 1e-4;
 
@@ -92,11 +90,6 @@ impl Covariance {
         }
         sum
     }
-}
-
-/// ln det of a factored matrix.
-pub fn log_determinant(factor: &Cholesky<f64, Dyn>) -> f64 {
-    2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>()
 }
 
 impl Experiment {

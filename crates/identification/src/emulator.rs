@@ -4,10 +4,9 @@
 //! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of
 //! runs. Every further run draws the process to itself; where none is near, the process says how much may be
 //! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
-//! run a level). Of a curve's runs most of it is the mesh, which differs from metal to metal: the process knows
-//! only the share that varies smoothly.
+//! run a level). Of a curve's runs most of it is the mesh, which differs from metal to metal: the process
+//! knows only the share that varies smoothly.
 
-use super::covariance::{MODEL_PARTS, log_determinant};
 use super::imprint::error_sizes;
 use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
@@ -49,7 +48,7 @@ pub struct Emulator {
     amplitudes: Vec<f64>,
     /// Covariance of what is left of the trend of a curve, by a polynomial through its runs.
     rest: Option<DMatrix<f64>>,
-    /// Share of what is left that varies smoothly with the metal; the rest is the mesh's.
+    /// Share of that remainder that varies smoothly with the metal; the rest is the mesh's.
     smooth_share: f64,
     /// That over which the error of an answer counts: of the loading, or of heights far from a rim.
     scatter: f64,
@@ -127,7 +126,16 @@ fn share_of_an_error(error: f64, amplitude: f64) -> f64 {
     (0.5 * error / amplitude).powi(2).max(1e-6)
 }
 
-/// Shares of what is left that are tried as the one that varies smoothly with the metal.
+/// Parts of the covariance that are the model's: errors of the force, of the slope where unloading begins, of
+/// the recovery; and the remainder of all numbers beside their trend.
+pub const MODEL_PARTS: usize = 4;
+
+/// ln det of a factored matrix.
+pub fn log_determinant(factor: &Cholesky<f64, Dyn>) -> f64 {
+    2.0 * factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>()
+}
+
+/// Shares of the remainder that are tried as the one that varies smoothly with the metal.
 const SHARES_TRIED: usize = 20;
 
 /// Correlations of which a `share` is smooth.
@@ -267,8 +275,8 @@ impl Emulator {
         self.weights = solved.unwrap_or_else(|| DMatrix::zeros(count, self.amplitudes.len()));
     }
 
-    /// The share of what is left that varies smoothly with the metal, all numbers together: the likeliest one
-    /// by how alike what is left is of metals that are near each other.
+    /// The share of the remainder that varies smoothly with the metal, all numbers together: the likeliest
+    /// one by how alike remainders are of metals that are near each other.
     fn likeliest_share(&self, alike: &DMatrix<f64>, rest: &DMatrix<f64>) -> f64 {
         let misfit = |share: f64| {
             let Some(factor) = partly(alike, share).cholesky() else { return f64::INFINITY };
@@ -322,8 +330,8 @@ impl Emulator {
         self.left_of_the_trend(1.0 - known, question.imprint, loading)
     }
 
-    /// Share of the mesh in what is left at `place`: all of it until a finer level has answered, then what it
-    /// makes of the difference to the metal of which that did, and what the finer mesh makes of both.
+    /// Share of the mesh in the remainder at `place`: all of it until a finer level has answered, then what
+    /// it makes of the difference to the metal of which that did, and what the finer mesh makes of both.
     fn share_of_the_mesh(&self, place: &[f64]) -> f64 {
         let share = match (&self.met, &self.trend) {
             (Some(met), Trend::Polynomial(polynomial)) => {

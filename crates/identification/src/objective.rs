@@ -1,6 +1,7 @@
 //! All measurements at once: residuals in standard deviations, by one covariance for each measurement.
 
-use super::covariance::{Covariance, MODEL_PARTS, log_determinant};
+use super::covariance::Covariance;
+use super::emulator::{MODEL_PARTS, log_determinant};
 use super::experiment::Experiment;
 use super::parameters::Unknowns;
 use crate::levenberg_marquardt::{Function, ResidualFunction, Residuals, jacobian};

@@ -99,8 +99,8 @@ fn emulator(
 }
 
 /// The answer of a draft mesh scatters from metal to metal, and one shift to a finer level at the best metal
-/// does not tell of another. Intervals from there contain the metal that was measured: 8 of 10 times at least,
-/// of which intervals of 95 % fall short in 1 of 100 tries.
+/// does not tell of another. Intervals from there contain the metal that was measured: 8 of 10 times at
+/// least, of which intervals of 95 % fall short in 1 of 100 tries.
 #[test]
 fn scatter_of_the_mesh_does_not_take_the_true_metal_out_of_an_interval() {
     assert_eq!(AFTER_LOADING.len(), NUMBERS_AFTER_LOADING);
