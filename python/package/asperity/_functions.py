@@ -24,6 +24,7 @@ from ._results import (
     Scales,
     Study,
     Trade,
+    as_json,
 )
 
 if TYPE_CHECKING:
@@ -452,6 +453,8 @@ def study(
     given: Sequence[Any] = (sample,) if isinstance(sample, str) else sample
     table: dict[str, Any] = {"kind": given[0], "seed": seed, "points": given[1] if len(given) > 1 else None}
     surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
+    # refuses numbers that are not finite by the path of their key
+    as_json(vary)
     results = _asperity.study(
         _any_scene(scene),
         dict(vary),
