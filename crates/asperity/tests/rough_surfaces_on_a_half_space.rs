@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use asperity::joint::joint;
 use asperity::{Rough, RoughScene, press};
 use asperity_roughness::Closure;
 use std::path::Path;
@@ -12,6 +13,10 @@ fn pressed(top: &str, rest: &str) -> Result<Rough, asperity::Error> {
 }
 
 fn pressed_metal(strength: &str, top: &str, rest: &str) -> Result<Rough, asperity::Error> {
+    press(&scene(strength, top, rest), &mut |_| true)
+}
+
+fn scene(strength: &str, top: &str, rest: &str) -> RoughScene {
     let text = format!(
         r#"{top}
 [surface]
@@ -31,7 +36,7 @@ poissons_ratio = 0.3
 {strength}
 {rest}"#
     );
-    press(&RoughScene::from_toml(&text, Path::new("")).unwrap(), &mut |_| true)
+    RoughScene::from_toml(&text, Path::new("")).unwrap()
 }
 
 fn row(rough: &Rough, closure: Closure) -> &asperity::rough::TableRow {
@@ -144,6 +149,24 @@ fn a_closure_that_cannot_carry_the_load_fails_alone() {
         .unwrap_err()
         .to_string();
     assert!(alone.contains("load.pressure") && alone.contains("2000 MPa"), "{alone}");
+}
+
+/// Each flow that a joint prints has its error beside it, in percent of the row's own.
+#[test]
+fn the_flows_of_a_joint_stand_beside_their_errors() {
+    let fluid = "[load]\npressure = \"100 MPa\"\n[fluid]\nviscosity = \"1 mPa s\"\npressures = [\"2 MPa\", \"1 MPa\"]";
+    let joint =
+        joint(&[scene("hardness = \"2 GPa\"", "closure = \"half-space\"", fluid)], &mut |_| true).unwrap();
+    let text = joint.text();
+    let head = text.lines().find(|line| line.starts_with("phase")).unwrap();
+    assert!(
+        head.trim_end().ends_with("flow x, ml/min  flow y, ml/min   error of x, %   error of y, %"),
+        "{head}"
+    );
+    let row = joint.rows.iter().rfind(|row| row.leak_x_error.is_some()).unwrap();
+    let ends = text.lines().filter_map(|line| line.split_whitespace().rev().nth(1)?.parse::<f64>().ok());
+    let error = 100.0 * row.leak_x_error.unwrap();
+    assert!(ends.into_iter().any(|shown| (shown / error - 1.0).abs() < 1e-3), "{error} in {text}");
 }
 
 #[test]

@@ -55,6 +55,13 @@ fn serde_is_put_into_plain_words() {
         let (message, help) = reword(&format!("missing field `{field}`"));
         assert_eq!((message.as_str(), help.as_deref()), (&*format!("`{field}` is missing"), example));
     }
+    for (message, way_out) in [
+        ("unknown variant `table`, expected `hollomon` or `swift`", "hardening_exponent"),
+        ("unknown field `lambda_c`, expected one of `file`, `s_filter`, `l_filter`", "surface.l_filter"),
+        ("unknown field `filter`, expected one of `file`, `s_filter`, `l_filter`", "surface.s_filter"),
+    ] {
+        assert!(reword(message).1.unwrap().contains(way_out), "{message}");
+    }
     assert_eq!(
         reword("invalid type: string \"x\", expected f64").0,
         "invalid type: string \"x\", expected a number without quotes"
