@@ -47,8 +47,8 @@ pub struct Covariance {
 impl Covariance {
     /// That of data of which one error of the finite elements is known alone.
     fn of_the_first(noise: DMatrix<f64>, model: DMatrix<f64>) -> Covariance {
-        let none = || DMatrix::zeros(noise.nrows(), noise.ncols());
-        Covariance { model: [model, none(), none(), none()], noise }
+        let none = DMatrix::zeros(noise.nrows(), noise.ncols());
+        Covariance::of_three(noise, [model, none.clone(), none])
     }
 
     /// That of data of which the errors of force, slope and recovery are known.

@@ -70,8 +70,7 @@ fn normal(seed: &mut u64) -> f64 {
     (0..12).map(|_| uniform()).sum::<f64>() - 6.0
 }
 
-/// What takes the place of finite elements: the atlas, whose every number is off by `scatter` times a normal
-/// number.
+/// The atlas in the place of finite elements, its every number off by `scatter` times a normal number.
 fn answer(question: &DesignPoint, scatter: f64, seed: &mut u64) -> Response {
     let mut logarithms = by_the_atlas(question);
     let sizes = SHARES.iter().map(|_| OF_THE_LOADING).chain(AFTER_LOADING);

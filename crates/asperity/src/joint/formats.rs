@@ -26,8 +26,9 @@ pub(super) struct OptionalColumn {
     pub head: &'static str,
     /// Its key in a row.
     pub key: &'static str,
-    /// Its number in a row, and what that is multiplied by for a person.
+    /// Its number in a row.
     of: fn(&JointRow) -> Option<f64>,
+    /// The factor of that for a person.
     pub scale: f64,
 }
 
@@ -189,11 +190,14 @@ impl Joint {
             column("flow y, ml/min", "flow_y_ml_per_min", |row| row.flow_y_ml_per_min),
             column("x, mbar l/s", "flow_x_mbar_l_per_s", |row| row.flow_x_mbar_l_per_s),
             column("y, mbar l/s", "flow_y_mbar_l_per_s", |row| row.flow_y_mbar_l_per_s),
+        ];
+        let errors = [
             error("error of x, %", "leak_x_error", |row| row.leak_x_error),
             error("error of y, %", "leak_y_error", |row| row.leak_y_error),
         ];
-        let shown = |c: &OptionalColumn| c.scale == 1.0 || flows;
-        all.into_iter().filter(|c| shown(c) && self.rows.iter().any(|row| (c.of)(row).is_some())).collect()
+        // without a fluid no flow is shown that they belong to
+        let errors = errors.into_iter().filter(|_| flows);
+        all.into_iter().chain(errors).filter(|c| self.rows.iter().any(|row| (c.of)(row).is_some())).collect()
     }
 
     /// The result for a person.

@@ -307,7 +307,7 @@ impl Summary {
             self.scene.material.yield_stress.or(table).map(|s| s.0 / self.scene.material.youngs_modulus.0);
         if let Some(strain) = yields_at.filter(|strain| *strain < LEAST_YIELD_STRAIN) {
             warnings.push(format!(
-                "the metal yields at {:.0e} of its Young's modulus, metals at 1e-4 and above: look at the units of both", strain
+                "the metal yields at {strain:.0e} of its Young's modulus, metals at 1e-4 and above: look at the units of both"
             ));
         }
         let share = self.scene.material.moving_share();
