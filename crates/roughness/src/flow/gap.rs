@@ -129,6 +129,11 @@ impl Oriented {
         }
     }
 
+    /// The largest gap; 0 where all is closed.
+    pub fn largest(&self) -> f64 {
+        self.gaps.iter().copied().fold(0.0, f64::max)
+    }
+
     /// The next pixel along the flow, if there is one.
     pub fn ahead(&self, i: usize) -> Option<usize> {
         (i % self.long + 1 < self.long).then_some(i + 1)

@@ -7,7 +7,9 @@ use std::ops::Range;
 pub(super) const CHUNK: usize = 1 << 14;
 
 /// `f32` for the fast stage, `f64` for the last digits.
-pub(crate) trait Real: realfft::FftNum + num_traits::Float + Default + 'static {
+pub(crate) trait Real:
+    realfft::FftNum + num_traits::Float + num_traits::NumAssignOps + Default + 'static
+{
     /// Nearest number of this type.
     fn nearest(value: f64) -> Self;
     /// The same as `f64`.

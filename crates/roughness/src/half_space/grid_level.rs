@@ -81,7 +81,7 @@ impl<T: Real> Level<T> {
         let heights = &self.heights;
         lift.par_chunks_mut(CHUNK)
             .zip(heights.par_chunks(CHUNK))
-            .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u = *u - *h));
+            .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u -= *h));
     }
 
     /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over

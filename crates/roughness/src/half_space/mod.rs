@@ -36,6 +36,7 @@ pub use crate::half_space::half_space_contact::{
 };
 pub(crate) use area::each_patch;
 pub use area::{Area, patches};
+pub(crate) use float::Real;
 pub use limit::{LimitSource, PressureLimit, patch_slope};
 pub use stiffness::Stiffness;
 
