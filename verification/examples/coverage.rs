@@ -5,14 +5,13 @@
 //! [--level LEVEL] [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene
 //! and its row. The table is `verification/results/coverage.md`.
 //!
-//! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every
+//! The truth of a scene is a finer run of it ([`Recipe`]), extrapolated by a companion of its own as every
 //! run is; of some scenes with the other element. Those that were found are in
 //! `verification/results/coverage-truths.json.gz`; the others are searched for and kept in the folder of
 //! `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that what was
 //! stopped goes on there. A truth that was not reached is kept too. After the seconds of `--budget` no new
 //! truth is begun, and the table is of what there is. `--level` runs all scenes at one level instead of at
-//! their own. Before all of these words: `pack` puts all truths into the committed file; `recipes` holds the
-//! truths of draft and standard runs against those of `reference` runs.
+//! their own. `pack` before all of these words puts all truths into the committed file.
 //!
 //! All work comes back from a body that never yields: there the truth of the elastic fraction is 1.
 //!
@@ -26,9 +25,7 @@
 use asperity_simulation::scene::Accuracy;
 use asperity_verification::coverage_scenes::{Case, Kind};
 use asperity_verification::report::Report;
-use asperity_verification::truth::{
-    Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER_PENALTY, Truth, Truths,
-};
+use asperity_verification::truth::{Answer, Each, QUANTITIES, Recipe, SOFTER_PENALTY, Truths};
 use rayon::prelude::*;
 use std::error::Error;
 use std::ops::Range;
@@ -271,38 +268,11 @@ fn show(case: Case, truths: &Truths) {
     }
 }
 
-/// The truths of coarser levels against those of `reference` runs, of the cases that have one.
-fn compare(report: &mut Report, cases: &[Case], truths: &Truths) {
-    report.table(
-        "| truths of | scenes | mean cost, s | that of `reference` runs, s | quantity | median difference, % | 90 % below, % | promise, % |",
-    );
-    for ((name, level, _), recipe) in LEVELS.iter().zip(RECIPES).take(2) {
-        let pairs = cases.iter().filter_map(|case| {
-            let best = truths.find_or_compute(case, false)?.ok()?;
-            Some((recipe.find(case).ok()?, best))
-        });
-        let pairs: Vec<(Truth, Truth)> = pairs.collect();
-        let mean = |of: fn(&(Truth, Truth)) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
-        let [cost, best] = [mean(|p| p.0.seconds), mean(|p| p.1.seconds)];
-        for (quantity, what) in QUANTITIES.iter().enumerate() {
-            let differences: Vec<f64> =
-                pairs.iter().filter_map(|(own, best)| own.answer.error(&best.answer)[quantity]).collect();
-            let [median, most] = [0.5, 0.9].map(|share| 100.0 * quantile(differences.clone(), share));
-            let promise = 100.0 * level.promise();
-            report.line(&format!(
-                "| {name} | {} | {cost:.0} | {best:.0} | {what} | {median:.3} | {most:.3} | {promise} |",
-                pairs.len()
-            ));
-        }
-    }
-}
-
 /// Action on the scenes.
 #[derive(Clone, Copy, PartialEq)]
 enum Task {
     Measure,
     Pack,
-    Recipes,
 }
 
 /// The words of the command line.
@@ -319,7 +289,6 @@ fn options(words: &[String]) -> Result<Options, Box<dyn Error>> {
     let cache = PathBuf::from("target/coverage");
     let (task, words) = match words.split_first() {
         Some((word, rest)) if word == "pack" => (Task::Pack, rest),
-        Some((word, rest)) if word == "recipes" => (Task::Recipes, rest),
         _ => (Task::Measure, words),
     };
     let mut scenes = vec![SCENES];
@@ -361,19 +330,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let cases: Vec<Case> = options.scenes.iter().cloned().flatten().map(make).collect::<Result<_, _>>()?;
-    match options.task {
-        Task::Measure => {}
-        Task::Pack => {
-            println!("{} truths", truths.pack(&cases, Path::new(PACKED))?);
-            return Ok(());
-        }
-        Task::Recipes => {
-            let finest: Vec<Case> =
-                cases.into_iter().filter(|case| case.scene.accuracy == Accuracy::Reference).collect();
-            compare(&mut report, &finest, &truths);
-            report.finish()?;
-            return Ok(());
-        }
+    if options.task == Task::Pack {
+        println!("{} truths", truths.pack(&cases, Path::new(PACKED))?);
+        return Ok(());
     }
     let (count, clock) = (cases.len(), Instant::now());
     // in order, so that what is done in a budget holds every kind
