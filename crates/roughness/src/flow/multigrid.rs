@@ -157,7 +157,7 @@ impl<T: Real> Grid<T> {
         let ahead = rows.clone().map(|row| &self.network.ahead[row]);
         let inverse = rows.map(|row| &self.inverse[row]);
         let sums = rooms.each_mut().map(|room| &mut room[..long]);
-        along(sums, ahead, inverse, backwards);
+        relax(sums, ahead, inverse, backwards);
         for (k, sum) in rooms[..count].iter().enumerate() {
             self.x[row(k)].copy_from_slice(&sum[..long]);
         }
@@ -192,7 +192,7 @@ impl<T: Real> Grid<T> {
 }
 
 /// x_i = s_i + g x_before / sum_i along each line, in the place of s; g joins it to the cell before.
-fn along<T: Real>(s: [&mut [T]; LINES], ahead: [&[T]; LINES], inverse: [&[T]; LINES], backwards: bool) {
+fn relax<T: Real>(s: [&mut [T]; LINES], ahead: [&[T]; LINES], inverse: [&[T]; LINES], backwards: bool) {
     let long = s[0].len();
     let (s, ahead, inverse) =
         (s.map(|s| &mut s[..long]), ahead.map(|a| &a[..long]), inverse.map(|i| &i[..long]));
