@@ -169,7 +169,7 @@ fn network(map: &Oriented, largest: f64) -> (Network<f64>, Vec<f64>) {
     (Network::new(map.long, map.wide, ahead, beside, ends), entry)
 }
 
-/// What was found.
+/// The end of a search.
 struct Solution {
     flux: f64,
     /// Relative difference of what enters and leaves.
