@@ -184,9 +184,16 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
     };
     let (light, heavy) = (leak("20 MPa"), leak("100 MPa"));
     assert!(heavy.0 < light.0 && heavy.1 > light.1, "{light:?} {heavy:?}");
+    // nothing else needs the stiffness
+    let lean = "[load]\npressure = \"20 MPa\"\n[half_space]\nleak = false\nstiffness = false";
+    let lean = pressed("closure = \"half-space\"", lean).unwrap();
+    let row_without = row(&lean, Closure::HalfSpace);
+    assert_eq!(row_without.stiffness_MPa_per_um, None);
     // a scene that forbids the leak is not told to ask for it
     let rest = format!("[load]\npressure = \"20 MPa\"\n[half_space]\nleak = false\n{fluid}");
     let dry = pressed("closure = \"half-space\"", &rest).unwrap();
+    let area = |rough: &Rough| row(rough, Closure::HalfSpace).contact_area_ratio_corrected;
+    assert!(area(&dry) == area(&lean) && row(&dry, Closure::HalfSpace).stiffness_MPa_per_um.is_some());
     let verdict = dry.summary.verdict.unwrap();
     assert!(verdict.contains("half_space.leak = false") && !verdict.contains("leak=true"), "{verdict}");
     let unused = |text: &String| text.contains("[fluid] is not used: half_space.leak = false");

@@ -359,6 +359,9 @@ class HalfSpaceTable(TypedDict, total=False):
     1024 x 1024 points 1, which gives no curve between first touch and the load.
     """
 
+    stiffness: bool
+    """False where `asperity rough` leaves out the contact stiffness, which no other number needs: true by default."""
+
     tolerance: float
     """Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default; the
     loads of a joint and the contacts of scales are found to ten times it.

@@ -153,7 +153,7 @@ fn with_points_filled(
     let filled = fill(&surface.map).and_then(Surface::from_map);
     // a map that was pressed has a cell, and so has the filled one
     let filled = filled.unwrap_or_else(|_| surface.clone());
-    body.press(&filled, Load::Pressure(pressure))
+    body.press_without_stiffness(&filled, Load::Pressure(pressure), None)
 }
 
 impl SpaceContact {

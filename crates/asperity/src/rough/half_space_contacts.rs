@@ -36,7 +36,7 @@ impl HalfSpaceContacts {
         Ok(limit)
     }
 
-    /// The contact of `surface` at `load`, found once.
+    /// The contact of `surface` at `load`, found once, with its stiffness where `stiffness`.
     ///
     /// # Errors
     /// The reason why the half-space has none.
@@ -45,11 +45,15 @@ impl HalfSpaceContacts {
         body: &HalfSpace,
         surface: &Surface,
         load: Load,
+        stiffness: bool,
     ) -> Result<HalfSpaceContact, HalfSpaceError> {
         if let Some((_, found)) = self.found.iter().find(|(known, _)| known == body) {
             return found.clone();
         }
-        let found = body.press(surface, load);
+        let found = match stiffness {
+            true => body.press(surface, load),
+            false => body.press_without_stiffness(surface, load, None),
+        };
         self.found.push((*body, found.clone()));
         found
     }
@@ -71,7 +75,7 @@ pub(super) fn compare_with_half_space(
         let limit = if elastic { None } else { spaces.limit(scene, surface, load).ok().flatten() };
         let known = elastic || limit.is_some();
         let body = half_space::body(tables, limit.map(|l| l.pressure));
-        let found = known.then(|| spaces.contact(&body, surface, load));
+        let found = known.then(|| spaces.contact(&body, surface, load, false));
         if let (Some(Ok(found)), Some(area)) = (&found, one.corrected_ratio())
             && let known = found.area
             && known.corrected > 0.0

@@ -137,7 +137,7 @@ impl Task<'_> {
         let sneddon = 0.5 * tables.material.elastic().reduced_modulus() * surface.parameters.mean_gradient;
         let body = half_space::body(tables, limit.map(|l| l.pressure));
         let one = spaces
-            .contact(&body, surface, self.load)
+            .contact(&body, surface, self.load, tables.half_space.stiffness.unwrap_or(true))
             .and_then(|found| SpaceContact::evaluate(body, limit, surface, tables, found))
             .map_err(|e| PressError::of_half_space(&e, sneddon))?;
         let warnings = warnings::half_space_warnings(closure, &one, tables);

@@ -14,7 +14,7 @@ const COARSE_ERROR: f64 = 1e-3;
 /// The least error that `f32` is asked for: it stagnates below.
 const SINGLE_PRECISION_ERROR: f64 = 1e-6;
 /// A tolerance so many times above what rounding leaves is proven in `f32` too.
-const ROUNDED_PROOF: f64 = 10.0;
+const ROUNDED_PROOF: f64 = 4.0;
 /// Iterations of one grid.
 const ITERATIONS: usize = 400;
 
@@ -113,7 +113,7 @@ impl Task {
         let start = coarse.first_guess(hold, base);
         let mut level = coarse.level::<f32>(base);
         let start = allowed(&level, hold, start);
-        let found = search(&mut level, hold, start, COARSE_ERROR, ITERATIONS);
+        let found = search(&mut level, hold, start, None, COARSE_ERROR, ITERATIONS);
         self.prolonged(coarse.nodes, &found.pressure)
     }
 
@@ -129,11 +129,9 @@ impl Task {
     /// The error that `f32` leaves by rounding the displacements of a pressure, which is white noise on the
     /// nodes in contact: a free map sinks as a whole, and by far more than its heights where it is large or
     /// rough from pixel to pixel.
-    fn rounding(&self, level: &mut Level<f32>, pressure: &[f32]) -> f64 {
+    fn rounding(&self, level: &Level<f32>, [pressure, lift]: [&[f32]; 2]) -> f64 {
         /// Mean of |q|/2 over the waves of a square grid.
         const MEAN_STIFFNESS: f64 = 1.2;
-        let mut lift = vec![0.0; pressure.len()];
-        level.lift(pressure, &mut lift);
         let [bottom, _] = level.bounds();
         let [squares, measured, touching, work] = sums(lift.len(), |range| {
             range.filter(|i| !self.heights[*i].is_nan()).fold([0.0; 4], |mut sum, i| {
@@ -165,25 +163,31 @@ impl Task {
         };
         let mut level = self.level::<f32>(base);
         let start = allowed(&level, hold, start);
-        let floor = self.rounding(&mut level, &start).max(SINGLE_PRECISION_ERROR);
-        let found = search(&mut level, hold, start, tolerance.max(floor), ITERATIONS);
+        let mut lift = vec![0.0; start.len()];
+        level.lift(&start, &mut lift);
+        let floor = self.rounding(&level, [&start, &lift]).max(SINGLE_PRECISION_ERROR);
+        // what rounding leaves is beside what the search does
+        let proves = tolerance >= ROUNDED_PROOF * floor;
+        let wanted =
+            if proves { (tolerance * tolerance - floor * floor).sqrt() } else { tolerance.max(floor) };
+        let found = search(&mut level, hold, start, Some(lift), wanted, ITERATIONS);
         let single = level.convolutions;
         let start: Vec<f64> = found.pressure.par_iter().map(|p| f64::from(*p)).collect();
-        if tolerance >= ROUNDED_PROOF * floor && found.error <= tolerance {
+        if proves && found.error <= wanted {
             let near = level.near_contact([&found.pressure, &found.lift], found.plane);
             return Answer {
                 residual: level.residual([&found.pressure, &found.lift], found.plane, &near),
                 pressure: self.counted_from_zero(base, start),
                 lift: found.lift.par_iter().map(|u| f64::from(*u)).collect(),
                 plane: found.plane,
-                error: found.error,
+                error: found.error.hypot(floor),
                 convolutions: single,
             };
         }
         drop((level, found));
         let mut level = self.level::<f64>(base);
         let start = allowed(&level, hold, start);
-        let found = search(&mut level, hold, start, tolerance, ITERATIONS);
+        let found = search(&mut level, hold, start, None, tolerance, ITERATIONS);
         let near = level.near_contact([&found.pressure, &found.lift], found.plane);
         Answer {
             residual: level.residual([&found.pressure, &found.lift], found.plane, &near),
@@ -261,10 +265,11 @@ fn search<T: Real>(
     level: &mut Level<T>,
     hold: Hold,
     start: Vec<T>,
+    lift: Option<Vec<T>>,
     tolerance: f64,
     iterations: usize,
 ) -> Search<T> {
-    let found = conjugate_gradients(level, hold, start, tolerance, iterations);
+    let found = conjugate_gradients(level, hold, start, lift, tolerance, iterations);
     if found.error <= tolerance || !level.limit.is_finite() {
         return found;
     }

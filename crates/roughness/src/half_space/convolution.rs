@@ -90,7 +90,14 @@ impl<T: Real> Convolution<T> {
     pub fn apply(&mut self, way: Way, input: &[T], output: &mut [T]) {
         self.transform_rows(input);
         self.respond_in_columns(way);
-        self.transform_back(output);
+        self.transform_back(None, output);
+    }
+
+    /// The same less what stands in `from`.
+    pub fn apply_less(&mut self, way: Way, input: &[T], from: &[T], output: &mut [T]) {
+        self.transform_rows(input);
+        self.respond_in_columns(way);
+        self.transform_back(Some(from), output);
     }
 
     /// Waves along x of the rows of `input`, into the spectrum.
@@ -154,8 +161,8 @@ impl<T: Real> Convolution<T> {
         );
     }
 
-    /// The rows of the blocks back from their waves along x, into `output`.
-    fn transform_back(&self, output: &mut [T]) {
+    /// The rows of the blocks back from their waves along x, less those of `from`, into `output`.
+    fn transform_back(&self, from: Option<&[T]>, output: &mut [T]) {
         let ([nx, ny], px) = (self.nodes, self.padded[0]);
         let width = px / 2 + 1;
         let back_x = &self.back_x;
@@ -178,6 +185,9 @@ impl<T: Real> Convolution<T> {
                     } else {
                         let _ = back_x.process_with_scratch(wave, line, scratch);
                         out.copy_from_slice(&line[..nx]);
+                    }
+                    if let Some(from) = from {
+                        out.iter_mut().zip(&from[row * nx..]).for_each(|(u, h)| *u -= *h);
                     }
                 }
             },

@@ -77,11 +77,8 @@ impl<T: Real> Level<T> {
 
     /// `lift` of a pressure.
     pub fn lift(&mut self, pressure: &[T], lift: &mut [T]) {
-        self.apply(Way::Compliance, pressure, lift);
-        let heights = &self.heights;
-        lift.par_chunks_mut(CHUNK)
-            .zip(heights.par_chunks(CHUNK))
-            .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u -= *h));
+        self.convolutions += 1;
+        self.space.apply_less(Way::Compliance, pressure, &self.heights, lift);
     }
 
     /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over
@@ -94,20 +91,22 @@ impl<T: Real> Level<T> {
         touching: &Nodes,
         last: Option<f64>,
     ) -> (f64, Nodes) {
-        let bounds @ [_, top] = self.bounds();
-        let mean = |nodes: &Nodes, chosen: &(dyn Fn(usize) -> bool + Sync)| {
-            let [sum, n] = nodes.sums(|i| if chosen(i) { [lift[i].wide(), 1.0] } else { [0.0, 0.0] });
-            (n > 0.0).then(|| -sum / n)
-        };
+        let bounds @ [bottom, top] = self.bounds();
         if let Hold::Plane(plane) = hold {
             return (plane, self.near_contact([pressure, lift], plane));
         }
-        let first = mean(touching, &|i| pressure[i] < top)
+        let mean = |[sum, n]: [f64; 2]| (n > 0.0).then(|| -sum / n);
+        let term = |i: usize, counts: bool| if counts { [lift[i].wide(), 1.0] } else { [0.0; 2] };
+        let first = mean(touching.sums(|i| term(i, pressure[i] < top)))
             .or(last)
-            .or_else(|| mean(touching, &|_| true))
+            .or_else(|| mean(touching.sums(|i| term(i, true))))
             .unwrap_or(0.0);
-        let (at, near) = (T::nearest(first), self.near_contact([pressure, lift], first));
-        let plane = mean(&near, &|i| is_free(pressure[i], lift[i] + at, bounds)).unwrap_or(first);
+        let at = T::nearest(first);
+        let (near, sums) = Nodes::select_with_sums(pressure.len(), |i| {
+            let (p, gap) = (pressure[i], lift[i] + at);
+            ((p > bottom) | (gap < T::zero()), term(i, is_free(p, gap, bounds)))
+        });
+        let plane = mean(sums).unwrap_or(first);
         // a lower plane overlaps more
         let near = if plane < first { self.near_contact([pressure, lift], plane) } else { near };
         (plane, near)
@@ -116,7 +115,7 @@ impl<T: Real> Level<T> {
     /// The nodes under pressure, and those that overlap the plane at a height.
     pub fn near_contact(&self, [pressure, lift]: [&[T]; 2], plane: f64) -> Nodes {
         let (at, [bottom, _]) = (T::nearest(plane), self.bounds());
-        Nodes::select(pressure.len(), |i| pressure[i] > bottom || lift[i] + at < T::zero())
+        Nodes::select(pressure.len(), |i| (pressure[i] > bottom) | (lift[i] + at < T::zero()))
     }
 
     /// The distance of pressure and gap from complementarity, over the load times the rms height: gap under
@@ -147,9 +146,8 @@ impl<T: Real> Level<T> {
         wrong / (load * self.rms)
     }
 
-    /// The proven relative error √(δ·Kδ / p·Sp) of a pressure, by the gaps `wrong` on the nodes `freed`
-    /// that may change theirs and their stiffness K·`wrong`; δ is `wrong` with its sign turned, and 0
-    /// elsewhere.
+    /// The proven relative error √(δ·Kδ / p·Sp) of a pressure, of which `product` is δ·Kδ and `sum` the sum
+    /// of δ: on the nodes that may change their pressure δ is the gap with its sign turned, and 0 elsewhere.
     ///
     /// With w = gap + δ the pressure is the exact contact of the heights less δ, so that for the true
     /// pressure p* (p - p*)·w ≤ 0 and (p - p*)·w* ≥ 0: |p - p*|²_S ≤ -δ·(p - p*) ≤ |δ|_K |p - p*|_S. Where
@@ -157,20 +155,17 @@ impl<T: Real> Level<T> {
     pub fn error(
         &self,
         hold: Hold,
-        [wrong, stiff]: [&[T]; 2],
-        freed: &Nodes,
+        [product, sum]: [f64; 2],
         [pressure, lift]: [&[T]; 2],
+        touching: &Nodes,
     ) -> f64 {
-        let [product, sum] = freed.sums(|i| [wrong[i].wide() * stiff[i].wide(), wrong[i].wide()]);
         let even = match hold {
-            Hold::Pressure(_) => sum * sum / wrong.len() as f64 * self.space.even_stiffness(),
+            Hold::Pressure(_) => sum * sum / pressure.len() as f64 * self.space.even_stiffness(),
             Hold::Plane(_) => 0.0,
         };
-        let (heights, hole) = (&self.heights, T::nearest(MISSING_HEIGHT));
-        let [work] = sums(pressure.len(), |range| {
-            let measured = range.filter(|i| heights[*i] > hole);
-            [measured.map(|i| pressure[i].wide() * (lift[i] + heights[i]).wide()).sum()]
-        });
+        let heights = &self.heights;
+        // displacements of a periodic surface sum to 0, so that pressures may be counted from 0
+        let [work] = touching.sums(|i| [self.full(pressure[i]) * (lift[i] + heights[i]).wide()]);
         let bound = (product - even).max(0.0);
         if bound == 0.0 {
             0.0
@@ -222,9 +217,8 @@ impl<T: Real> Level<T> {
         }
     }
 
-    /// The same where all pressure is on the nodes `touching`; those on which it is then.
-    pub fn rescale_on(&self, touching: Nodes, pressure: &mut [T], wanted: f64) -> Nodes {
-        let [load] = touching.sums(|i| [self.full(pressure[i])]);
+    /// The same where all pressure is on the nodes `touching`, which carry `load`; those on which it is then.
+    pub fn rescale_on(&self, touching: Nodes, load: f64, pressure: &mut [T], wanted: f64) -> Nodes {
         let [bottom, _] = self.bounds();
         if load > 0.0 && self.limit.is_infinite() {
             let more = T::nearest(wanted * pressure.len() as f64 / load - 1.0);

@@ -69,7 +69,8 @@ pub(super) fn proven<T: Real>(level: &mut Level<T>, hold: Hold, [p, u]: [&[T]; 2
     let [mut wrong, mut stiff] = [(); 2].map(|()| vec![T::zero(); p.len()]);
     freed.set(&mut wrong, |i, _| u[i] + at);
     level.apply(Way::Stiffness, &wrong, &mut stiff);
-    level.error(hold, [&wrong, &stiff], &freed, [p, u])
+    let sums = freed.sums(|i| [wrong[i].wide() * stiff[i].wide(), wrong[i].wide()]);
+    level.error(hold, sums, [p, u], &near)
 }
 
 /// A step that suits the longest waves: half the stiffness of the wave as long as the grid.

@@ -27,6 +27,9 @@ pub struct HalfSpaceScene {
     /// True where the flow through the gap is computed: by default where a fluid is given or one closure alone is chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leak: Option<bool>,
+    /// False where `asperity rough` leaves out the contact stiffness, which no other number needs: true by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<bool>,
 }
 
 impl HalfSpaceScene {
