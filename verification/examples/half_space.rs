@@ -1,10 +1,11 @@
-//! CPU seconds of the search of a half-space alone, without reading, gaps of other loads, stiffness and files.
+//! CPU seconds of the search of a half-space alone, without reading, gaps of other loads, stiffness and
+//! files.
 //!
 //! `RAYON_NUM_THREADS=1 cargo run --release -p asperity-verification --example half_space -- HEIGHTS.npy
 //! PRESSURE TOLERANCE PRESSURES.npy`: heights in pixels, of one period; the nominal pressure over E*; the
-//! relative error of the pressures in the norm of the energy at which the search ends. Prints the seconds, the
-//! error that it proves and its convolutions; writes the pressures over E*. `verification/measure/rough-peer`
-//! sets it beside other programs.
+//! relative error of the pressures in the norm of the energy at which the search ends. Prints the seconds,
+//! the error that it proves and its convolutions; writes the pressures over E*. It is set beside other
+//! programs by `verification/measure/rough-peer`.
 
 // its caller reads what it prints
 #![allow(clippy::print_stdout)]
