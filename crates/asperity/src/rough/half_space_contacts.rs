@@ -36,7 +36,8 @@ impl HalfSpaceContacts {
         Ok(limit)
     }
 
-    /// The contact of `surface` at `load`, found once, with its stiffness where `stiffness`.
+    /// The contact of `surface` at `load`, found once, with its stiffness where `stiffness`. Ask with the
+    /// stiffness first: what was found without it stays without.
     ///
     /// # Errors
     /// The reason why the half-space has none.
