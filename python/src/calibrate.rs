@@ -29,7 +29,7 @@ pub fn calibrate<'py>(
     let file: TomlFile<Sweep> = TomlFile::parse(Path::new("sweep"), text, &[]).map_err(raised)?;
     file.value.validate().map_err(|e| raised(file.error_at(&e.path, &e.message)))?;
     let options = Options { threads, ..Options::default() };
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, 0, progress, |tell| {
         asperity::calibrate(&file.value, &options, &mut |reached| {
             tell(reached.share, format!("case {} of {}", reached.done, reached.all))
         })

@@ -25,11 +25,12 @@ pub struct Crush {
 
 /// Crushes a scene; an exception that ends the run has what was reached as `partial`.
 #[pyfunction]
-#[pyo3(signature = (scene, accuracy=None, out=None, progress=None))]
+#[pyo3(signature = (scene, accuracy=None, threads=0, out=None, progress=None))]
 pub fn crush(
     py: Python<'_>,
     scene: &Scene,
     accuracy: Option<&str>,
+    threads: usize,
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Crush> {
@@ -37,7 +38,7 @@ pub fn crush(
         accuracy.map(|level| scene.inner.with(&[format!("accuracy={level}")])).transpose().map_err(raised)?;
     let scene = changed.as_ref().unwrap_or(&scene.inner);
     let symmetry = scene.tables().symmetry;
-    let (result, raised_meanwhile) = work::run_to_end(py, progress, |tell| {
+    let (result, raised_meanwhile) = work::run_to_end(py, threads, progress, |tell| {
         asperity::crush(scene, &mut |reached| {
             let [depth, force] = reached.news.map_or([0.0; 2], |news| {
                 [news.row.depth / MICROMETRE, news.row.force / Unit::Force.value(symmetry)]

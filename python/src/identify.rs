@@ -15,11 +15,12 @@ type Identified<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, [Option<String>; 
 
 /// Finds the metal of a fit: tables, or the path of a file.
 #[pyfunction]
-#[pyo3(signature = (fit, set=None, out=None, progress=None))]
+#[pyo3(signature = (fit, set=None, threads=0, out=None, progress=None))]
 pub fn identify<'py>(
     py: Python<'py>,
     fit: &Bound<'py, PyAny>,
     set: Option<&Bound<'py, PyDict>>,
+    threads: usize,
     out: Option<PathBuf>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Identified<'py>> {
@@ -28,7 +29,7 @@ pub fn identify<'py>(
         Err(_) => Fit::read(&fit.extract::<PathBuf>()?, &overrides(set)?),
     };
     let fit = fit.map_err(raised)?;
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, threads, progress, |tell| {
         asperity::identify(fit, &mut |share, text| tell(share, text.to_string()))
     })?;
     let found = result.map_err(raised)?;

@@ -18,15 +18,16 @@ pub struct Joint {
 
 /// Presses maps of one surface from first touch to their largest load and back.
 #[pyfunction]
-#[pyo3(signature = (maps, out=None, progress=None))]
+#[pyo3(signature = (maps, threads=0, out=None, progress=None))]
 pub fn joint(
     py: Python<'_>,
     maps: Vec<Map<'_>>,
+    threads: usize,
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Joint> {
     let scenes = scenes_of(maps)?;
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, threads, progress, |tell| {
         asperity::joint::joint(&scenes, &mut |reached| {
             tell(reached.share, reached.news.map_or(String::new(), |p| format!("{:.4} MPa", p * 1e-6)))
         })

@@ -21,17 +21,18 @@ pub struct Rough {
 
 /// Presses a plane on the surface of a scene, or on the heights (µm, row by row) with their pixel (µm).
 #[pyfunction]
-#[pyo3(signature = (scene, heights=None, pixel_size_um=None, out=None, progress=None))]
+#[pyo3(signature = (scene, heights=None, pixel_size_um=None, threads=0, out=None, progress=None))]
 pub fn press(
     py: Python<'_>,
     scene: &RoughScene,
     heights: Option<PyReadonlyArray2<'_, f64>>,
     pixel_size_um: Option<[f64; 2]>,
+    threads: usize,
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Rough> {
     let scene = with_heights(scene, heights, pixel_size_um)?;
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, threads, progress, |tell| {
         asperity::press(&scene, &mut |reached| {
             tell(reached.share, reached.news.map_or("", |c| c.name()).to_string())
         })
@@ -72,7 +73,8 @@ impl Rough {
         };
         let names: Vec<&str> = contacts.iter().map(ClosureContact::name).collect();
         found.ok_or_else(|| {
-            wrong(format!("no contact by closure {closure:?} was computed; there are {}", names.join(", ")))
+            let asked = closure.unwrap_or("any closure");
+            wrong(format!("no contact by {asked} was computed; there are {}", names.join(", ")))
         })
     }
 

@@ -18,15 +18,16 @@ pub struct Scales {
 
 /// Presses a surface at every scale; more maps are repeated measurements of it.
 #[pyfunction]
-#[pyo3(signature = (maps, out=None, progress=None))]
+#[pyo3(signature = (maps, threads=0, out=None, progress=None))]
 pub fn scales(
     py: Python<'_>,
     maps: Vec<Map<'_>>,
+    threads: usize,
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Scales> {
     let scenes = scenes_of(maps)?;
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, threads, progress, |tell| {
         asperity::scales::scales(&scenes, &mut |reached| {
             tell(
                 reached.share,

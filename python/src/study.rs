@@ -76,7 +76,7 @@ pub fn study<'py>(
         Directory::create(folder).map_err(raised)?;
     }
     let options = Options { threads, part, folder: out.clone() };
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, 0, progress, |tell| {
         asperity::study(&plan, &options, &mut |reached| {
             tell(reached.share, format!("run {} of {}", reached.done, reached.all))
         })

@@ -12,16 +12,17 @@ use std::path::PathBuf;
 
 /// Runs a scene at many settings: rows, relative uncertainty of the converged force, the text for a person.
 #[pyfunction]
-#[pyo3(signature = (scene, combinations=30, out=None, progress=None))]
+#[pyo3(signature = (scene, combinations=30, threads=0, out=None, progress=None))]
 pub fn trade<'py>(
     py: Python<'py>,
     scene: &Scene,
     combinations: usize,
+    threads: usize,
     out: Option<PathBuf>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyDict>, Option<f64>, String)> {
     let tables = scene.inner.tables();
-    let result = work::run(py, progress, |tell| {
+    let result = work::run(py, threads, progress, |tell| {
         let options = Options { combinations, ..Options::default() };
         asperity::trade::trade(tables, &options, &mut |reached| {
             tell(reached.share, format!("{} settings", reached.done))

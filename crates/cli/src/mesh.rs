@@ -25,6 +25,9 @@ pub struct MeshCommand {
     pub format: Option<MeshFormat>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
+    /// Without -o: write over a file of that name, whatever it is [default: over an earlier mesh or deck of the same kind]
+    #[arg(long)]
+    pub force: bool,
     /// Print nothing but errors
     #[arg(long)]
     pub quiet: bool,
@@ -81,6 +84,9 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     let scene = args.scene_flags.read(&args.scene)?;
     let mesh = asperity::mesh::mesh(&scene)?;
     let (bytes, warnings) = content(&scene, &mesh, format)?;
+    if args.output.is_none() && !args.force {
+        refuse_other(&path, &bytes)?;
+    }
     write_whole(&path, &bytes)
         .map_err(|e| InputError::new(e.to_string()).help("give another file with -o"))?;
     if !args.quiet {
@@ -89,6 +95,23 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
         terminal::say(&format!("written    {}", path.display()))?;
     }
     Ok(())
+}
+
+/// Refuses to write `new` over a file that nobody named and that does not begin as it does.
+fn refuse_other(path: &Path, new: &[u8]) -> Result<(), InputError> {
+    // those of a deck name the scene and the program that reads it
+    const FIRST_LINES: usize = 4;
+    let start = |bytes: &[u8]| {
+        let lines = if new.starts_with(b"*") { FIRST_LINES } else { 1 };
+        bytes.split(|b| *b == b'\n').take(lines).map(<[u8]>::to_vec).collect::<Vec<_>>()
+    };
+    match std::fs::read(path) {
+        Ok(old) if start(&old) != start(new) => {
+            Err(InputError::new(format!("{} is there and no earlier file of this command", path.display()))
+                .help("name another with -o, or write over it with --force"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The content of the file: the mesh for ParaView in µm, for Gmsh in m, or the whole scene for CalculiX; and

@@ -74,6 +74,9 @@ const OF_OTHERS: [&str; 16] = [
     "unit",
 ];
 
+/// Words of the column that was measured, beside one that was wanted.
+const MEASURED: [&str; 4] = ["measured", "actual", "ist", "gemessen"];
+
 fn has(name: &str, words: &[&str]) -> bool {
     name.split([' ', '.', '\\']).any(|word| words.contains(&word))
 }
@@ -98,10 +101,12 @@ pub(crate) fn refuse_several(
         other != name(own) && is_height && (is_own_beside || !has(&other, &BESIDE))
     };
     let Some(other) = cells.iter().find(is_other) else { return Ok(()) };
+    let is_measured = |cell: &&String| has(&name(cell), &MEASURED) && has(&name(cell), &HEIGHTS);
+    let example = shortened(cells.iter().find(is_measured).unwrap_or(other));
     let [own, other] = [own, other].map(|cell| shortened(cell));
     let way = key.map_or_else(
         || "keep one of them, or call the others by another name".to_string(),
-        |key| format!("say which, like {key} = {{ …, z = \"{other}\" }}"),
+        |key| format!("say which, like {key} = {{ …, z = \"{example}\" }}"),
     );
     Err(TextError::new(line, format!("\"{own}\" and \"{other}\" may both be the heights: {way}")))
 }

@@ -3,7 +3,10 @@
 use crate::cantilever;
 use crate::dimension::Dimension;
 use crate::text::{Asked, Decimal, MINUS, Quantity, Series, SeriesTable, TextError, read_series};
+use doubts::{MOST_LONE, refuse_doubtful};
 use std::mem::take;
+
+mod doubts;
 
 /// Depth and force, m and N, as they were read, one after the other in time.
 pub type Readings = Vec<[f64; 2]>;
@@ -63,6 +66,8 @@ pub const DEPTH: Quantity = Quantity {
         "压痕深度",
         "변위",
         "깊이",
+        "스트로크",
+        "行程",
         "глубина",
         "глубина внедрения",
         "перемещение",
@@ -110,6 +115,9 @@ pub const FORCE: Quantity = Quantity {
         "载荷",
         "力",
         "하중",
+        "시험력",
+        "힘",
+        "试验力",
         "нагрузка",
         "сила",
         "усилие",
@@ -122,10 +130,6 @@ pub const FORCE: Quantity = Quantity {
     ],
     example: "force_mN",
 };
-
-/// The largest negative force over the largest positive one from which compression is counted negative: an
-/// attraction of the tip is not so much larger than the load.
-const NEGATIVE_SHARE: f64 = 5.0;
 
 /// Reads the tests of `text`; `columns` names those of depth and force where their names are unusual, with a
 /// minus before a name whose numbers change sign, and `missing` is a number that stands for no reading.
@@ -165,18 +169,17 @@ pub fn read_as(
     join_parts(&mut table);
     part_tests(&mut table);
     for test in &table.series {
-        refuse_disorder(test)?;
-        refuse_lone(test, table.scales)?;
-        refuse_negative(test, &table.names, turned)?;
-        refuse_reverse(test)?;
-        refuse_baseline(test)?;
+        refuse_doubtful(test, &table, turned)?;
     }
     Ok(table)
 }
 
-/// Distance in depth and in force, as a share of the largest ones, up to which a part goes on where the one
-/// before it ends.
+/// Distance in depth and in force up to which a part goes on where the one before it ends: as a share of the
+/// largest ones, and over the steps of the readings beside, behind so many of them.
 const DISTANCE_OF_PARTS: f64 = 0.05;
+const STEPS_BETWEEN_PARTS: f64 = 1.5;
+const MOST_DISTANCE_OF_PARTS: f64 = 0.5;
+const MIN_READINGS_OF_A_PART: usize = 4;
 /// Depth over the largest one from which a part begins within a test: others begin at the surface.
 const LEAST_DEPTH_OF_A_PART: f64 = 0.2;
 
@@ -210,31 +213,45 @@ const LEAST_OF_A_TEST: [f64; 2] = [0.2, 0.03];
 /// Such a fall over the median step between readings.
 const FALL_OVER_STEPS: f64 = 5.0;
 
-/// Parts tests that stand below each other with nothing between them: the tool is at the surface at once.
+/// Parts tests that stand below each other with nothing between them, or under a number that comes again: the
+/// tool is at the surface at once.
 fn part_tests(table: &mut SeriesTable<2>) {
-    let [test] = &mut table.series[..] else { return };
-    let starts = starts_of_tests(&test.rows);
-    if starts.is_empty() {
-        return;
+    let is_one = table.series.len() == 1;
+    let (mut tests, mut lines): (Vec<Series<2>>, Vec<usize>) = (Vec::new(), Vec::new());
+    let of_tests: Vec<Vec<usize>> = table.series.iter().map(|test| test.lines.clone()).collect();
+    for mut test in take(&mut table.series) {
+        // a number that comes again behind those of other tests is that of another specimen
+        let comes_again = |row: &usize| {
+            let [before, line] = [test.lines[row - 1], test.lines[*row]];
+            let is_between =
+                |of: &Vec<usize>| of.get(of.partition_point(|l| *l <= before)).is_some_and(|l| *l < line);
+            is_one || of_tests.iter().any(is_between)
+        };
+        let starts: Vec<usize> = starts_of_tests(&test.rows).into_iter().filter(comes_again).collect();
+        lines.extend(starts.iter().map(|&row| test.lines[row]));
+        let count = starts.len();
+        let mut parts: Vec<Series<2>> = Vec::with_capacity(count + 1);
+        for (part, &start) in starts.iter().enumerate().rev() {
+            let (rows, lines) = (test.rows.split_off(start), test.lines.split_off(start));
+            let label =
+                if is_one { (part + 2).to_string() } else { format!("{} ({})", test.label, part + 2) };
+            parts.push(Series { label, rows, lines });
+        }
+        if is_one && count > 0 {
+            test.label = "1".into();
+        }
+        parts.push(test);
+        tests.extend(parts.into_iter().rev());
     }
-    let lines: Vec<String> = starts.iter().map(|&row| test.lines[row].to_string()).collect();
-    let mut parts: Vec<Series<2>> = Vec::with_capacity(starts.len() + 1);
-    for &start in starts.iter().rev() {
-        let (rows, lines) = (test.rows.split_off(start), test.lines.split_off(start));
-        parts.push(Series { label: String::new(), rows, lines });
+    if !lines.is_empty() {
+        lines.sort_unstable();
+        let at: Vec<String> = lines.iter().map(usize::to_string).collect();
+        let begins = if lines.len() > 1 { "begins again at lines" } else { "begins again at line" };
+        table.understood +=
+            &format!("; {} tests below each other: the depth {begins} {}", tests.len(), at.join(", "));
     }
-    parts.push(Series { label: String::new(), rows: take(&mut test.rows), lines: take(&mut test.lines) });
-    parts.reverse();
-    for (number, part) in parts.iter_mut().enumerate() {
-        part.label = (number + 1).to_string();
-    }
-    table.understood += &format!(
-        "; {} tests below each other: the depth begins again at line{} {}",
-        parts.len(),
-        if lines.len() > 1 { "s" } else { "" },
-        lines.join(", ")
-    );
-    table.series = parts;
+    tests.sort_by_key(|test| test.lines.first().copied());
+    table.series = tests;
 }
 
 /// The rows at which another test begins. Depth and force fall there from one row to the next to those of a
@@ -268,195 +285,15 @@ fn starts_of_tests(rows: &[[f64; 2]]) -> Vec<usize> {
 fn goes_on(test: &[[f64; 2]], next: &[[f64; 2]]) -> bool {
     let (Some(end), Some(start)) = (test.last(), next.first()) else { return false };
     let most = |k: usize| test.iter().map(|row| row[k].abs()).fold(0.0, f64::max);
-    let is_near = |k: usize| (start[k] - end[k]).abs() <= DISTANCE_OF_PARTS * most(k);
-    is_near(0) && is_near(1) && start[0] >= LEAST_DEPTH_OF_A_PART * most(0)
-}
-
-/// Refuses a test whose forces, or whose depths at the largest force, are negative.
-///
-/// # Errors
-/// Such a test, with the key that turns the signs.
-fn refuse_negative(test: &Series<2>, names: &[String; 2], turned: [bool; 2]) -> Result<(), TextError> {
-    let force = |i: &usize| test.rows[*i][1];
-    let end = |sign: f64| (0..test.rows.len()).max_by(|a, b| (sign * force(a)).total_cmp(&(sign * force(b))));
-    let (Some(lowest), Some(highest)) = (end(-1.0), end(1.0)) else { return Ok(()) };
-    let is_turned = -force(&lowest) > NEGATIVE_SHARE * force(&highest).max(0.0);
-    let at = if is_turned { lowest } else { highest };
-    let [depth, force] = test.rows[at];
-    let is_negative = [depth < 0.0 && depth < test.rows[0][0] && force != 0.0, is_turned];
-    if is_negative == [false; 2] {
-        return Ok(());
-    }
-    let key = |k: usize| {
-        let minus = if is_negative[k] != turned[k] { "-" } else { "" };
-        format!("{} = \"{minus}{}\"", [DEPTH, FORCE][k].name, names[k])
+    let step = |two: Option<&[[f64; 2]]>, k: usize| two.map_or(0.0, |two| (two[1][k] - two[0][k]).abs());
+    let steps = |k: usize| step(test.windows(2).next_back(), k).max(step(next.windows(2).next(), k));
+    // a metal takes more force where the tool goes deeper
+    let is_a_way = (start[0] - end[0]) * (start[1] - end[1]) >= 0.0;
+    let has_steps = is_a_way && test.len() >= MIN_READINGS_OF_A_PART;
+    let is_near = |k: usize| {
+        let near = if has_steps { STEPS_BETWEEN_PARTS * steps(k) } else { 0.0 };
+        let near = near.min(MOST_DISTANCE_OF_PARTS * most(k)).max(DISTANCE_OF_PARTS * most(k));
+        (start[k] - end[k]).abs() <= near
     };
-    let message = format!(
-        "counts compression negative: its largest force is {:.4} mN, at a depth of {:.4} um. Depths and forces are positive into \
-         the metal; a minus turns a sign: columns = {{ {}, {} }}",
-        1e3 * force,
-        1e6 * depth,
-        key(0),
-        key(1)
-    );
-    Err(TextError::new(test.lines[at], message))
-}
-
-/// Fewest readings that show whether a test stands in the order of time.
-const MIN_ORDERED: usize = 30;
-/// Size over the range of a test from which a step back and forth is none of noise.
-const JUMP_SIZE: f64 = 0.1;
-/// Such turns over all readings in rows without an order: cycles of a few readings have fewer.
-const TURNS_WITHOUT_ORDER: f64 = 0.3;
-/// Such turns in rows sorted by the other quantity: none belongs to a test that goes one way.
-const TURNS_OF_SORTED: usize = 3;
-
-/// Refuses a test that jumps back and forth: rows sorted by depth hold readings of both branches in turn.
-///
-/// # Errors
-/// Such a test.
-fn refuse_disorder(test: &Series<2>) -> Result<(), TextError> {
-    let rows = &test.rows;
-    for (k, quantity) in [DEPTH, FORCE].iter().enumerate().filter(|_| rows.len() >= MIN_ORDERED) {
-        let values = || rows.iter().map(|row| row[k]);
-        let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
-        let turns = (1..rows.len() - 1).filter(|i| {
-            let [before, after] = [rows[*i][k] - rows[i - 1][k], rows[i + 1][k] - rows[*i][k]];
-            before * after < 0.0 && before.abs().min(after.abs()) > JUMP_SIZE * range
-        });
-        let turns: Vec<usize> = turns.collect();
-        let is_sorted = rows.is_sorted_by(|a, b| a[1 - k] <= b[1 - k]);
-        let is_without_order = turns.len() as f64 > TURNS_WITHOUT_ORDER * rows.len() as f64;
-        if is_without_order || is_sorted && turns.len() >= TURNS_OF_SORTED {
-            let message = format!(
-                "the {} jumps back and forth here and in {} other readings: the rows are not in the order in which they were measured; sort them by time",
-                quantity.name,
-                turns.len() - 1
-            );
-            return Err(TextError::new(test.lines[turns[0]], message));
-        }
-    }
-    Ok(())
-}
-
-/// Work that a test returns over the work that was put into it from which its rows run backwards.
-const MOST_RETURNED: f64 = 1.1;
-/// Force over the largest one up to which a test begins and ends without a load.
-const UNLOADED_SHARE: f64 = 0.2;
-
-/// Refuses a test that returns more work than was put into it: its last row was measured first.
-///
-/// # Errors
-/// Such a test.
-fn refuse_reverse(test: &Series<2>) -> Result<(), TextError> {
-    let most = test.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
-    let is_free = |row: Option<&[f64; 2]>| row.is_some_and(|row| row[1].abs() < UNLOADED_SHARE * most);
-    let works = test.rows.windows(2).map(|two| 0.5 * (two[0][1] + two[1][1]) * (two[1][0] - two[0][0]));
-    let (put_in, returned) = works.fold((0.0, 0.0), |(put_in, returned), work| {
-        if work > 0.0 { (put_in + work, returned) } else { (put_in, returned - work) }
-    });
-    let is_reverse = test.rows.len() >= MIN_ORDERED && returned > MOST_RETURNED * put_in;
-    if !is_reverse || !is_free(test.rows.first()) || !is_free(test.rows.last()) {
-        return Ok(());
-    }
-    let message = format!(
-        "the test returns {:.4} uJ and takes {:.4} uJ, as if its last row had been measured first: turn the order of the rows",
-        1e6 * returned,
-        1e6 * put_in
-    );
-    Err(TextError::new(test.lines[0], message))
-}
-
-/// Fewest readings of a test in which one can be told to stand alone.
-const MIN_READINGS: usize = 12;
-/// Size over the range of a test from which a way there and back within a few readings is no reading.
-const LONE_SIZE: f64 = 0.5;
-/// The same where a test begins or ends so: loads that double from reading to reading end far away too.
-const LONE_SIZE_AT_AN_END: f64 = 20.0;
-/// Most readings of different size that stand alone together.
-const MOST_LONE: usize = 3;
-
-/// Refuses a test with readings far from those before and after them: glitches, or marks of missing ones.
-fn refuse_lone(test: &Series<2>, scales: [f64; 2]) -> Result<(), TextError> {
-    for (k, quantity) in [DEPTH, FORCE].iter().enumerate().filter(|_| test.rows.len() >= MIN_READINGS) {
-        let values: Vec<f64> = test.rows.iter().map(|row| row[k] / scales[k]).collect();
-        let lone = lone(&values, *quantity == FORCE);
-        // more of them are a path that the rows do not follow in time
-        let Some(&first) = lone.first().filter(|_| 10 * lone.len() <= values.len()) else { continue };
-        let around = |i: usize| values.get(i).map_or(String::new(), |value| format!(", {value}"));
-        let message = format!(
-            "the {} {} stands alone ({}{}{}): delete such lines, or set missing_value = {} if that means that nothing was read",
-            quantity.name,
-            values[first],
-            first
-                .checked_sub(1)
-                .map_or_else(|| "at the beginning".into(), |i| format!("between {}", values[i])),
-            around(first),
-            around(first + 1),
-            values[first]
-        );
-        return Err(TextError::new(test.lines[first], message));
-    }
-    Ok(())
-}
-
-/// Places in `values` of those that stand alone; `has_ends` where the first and the last may too.
-fn lone(values: &[f64], has_ends: bool) -> Vec<usize> {
-    let mut sorted: Vec<f64> = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let share = |part: f64| sorted[(part * (sorted.len() - 1) as f64) as usize];
-    let [low, high] = [share(0.05), share(0.95)];
-    let range = high - low;
-    let mut found = Vec::new();
-    for i in 1..values.len() - 1 {
-        let (before, sign) = (values[i - 1], (values[i] - values[i - 1]).signum());
-        // a way down and back may be an unloading: only one that leaves all others is doubted
-        let is_far = sign > 0.0 || values[i] < low - LONE_SIZE * range;
-        if !is_far || (values[i] - before).abs() <= LONE_SIZE * range {
-            continue;
-        }
-        let equal = values[i..].iter().take_while(|v| **v == values[i]).count();
-        for count in 1..=equal.max(MOST_LONE) {
-            let Some(after) = values.get(i + count) else { break };
-            let least = values[i..i + count]
-                .iter()
-                .map(|v| (sign * (v - before)).min(sign * (v - after)))
-                .fold(f64::INFINITY, f64::min);
-            if least > LONE_SIZE * range && (after - before).abs() < 0.2 * least {
-                found.push(i);
-                break;
-            }
-        }
-    }
-    let ends = [(0, 1), (values.len() - 1, values.len() - 2)];
-    let is_off =
-        |(end, next): &(usize, usize)| (values[*end] - values[*next]).abs() > LONE_SIZE_AT_AN_END * range;
-    found.extend(ends.iter().filter(|end| has_ends && is_off(end)).map(|(end, _)| *end));
-    found
-}
-
-/// Fewest readings of an approach, and the share of the largest force from which a force that stays over all
-/// of them is a baseline: a first touch is found at a smaller one.
-const MIN_APPROACH: usize = 5;
-const BASELINE_SHARE: f64 = 0.03;
-/// Largest change of such a force, over itself.
-const BASELINE_CHANGE: f64 = 0.3;
-
-/// Refuses a test whose force is not 0 before the tool touches.
-fn refuse_baseline(test: &Series<2>) -> Result<(), TextError> {
-    let most = test.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
-    let approach: Vec<f64> = test.rows.iter().take_while(|row| row[0] < 0.0).map(|row| row[1]).collect();
-    let mean = approach.iter().sum::<f64>() / approach.len().max(1) as f64;
-    let is_flat = approach.iter().all(|force| (force - mean).abs() < 0.5 * BASELINE_CHANGE * mean.abs());
-    if approach.len() < MIN_APPROACH || mean.abs() < BASELINE_SHARE * most || !is_flat {
-        return Ok(());
-    }
-    let message = format!(
-        "the force is {:.4} mN at all {} readings before the depth 0, {:.1} % of the largest one: subtract it from all forces if it is \
-         there without contact, else leave these readings out",
-        1e3 * mean,
-        approach.len(),
-        100.0 * mean / most
-    );
-    Err(TextError::new(test.lines[0], message))
+    is_near(0) && is_near(1) && start[0] >= LEAST_DEPTH_OF_A_PART * most(0)
 }

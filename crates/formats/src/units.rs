@@ -14,7 +14,8 @@ pub struct UnitError(String);
 
 /// The size of a unit that files do not take, as messages add it: " (1 lbf is 4.448222 N)", or nothing.
 pub(crate) fn conversion(unit: &str) -> String {
-    const FACTORS: [(&str, &str); 11] = [
+    const FACTORS: [(&str, &str); 12] = [
+        ("A", "an ampere; write Å for 0.1 nm"),
         ("in", "25.4 mm"),
         ("inch", "25.4 mm"),
         ("mil", "25.4 um"),

@@ -94,21 +94,26 @@ class Scales:
     def text(self) -> str: ...
     def write(self, folder: str) -> None: ...
 
-def crush(scene: Scene, accuracy: str | None, out: str | None, progress: _Progress) -> Crush: ...
+def crush(
+    scene: Scene, accuracy: str | None, threads: int, out: str | None, progress: _Progress
+) -> Crush: ...
 def press(
     scene: RoughScene,
     heights: FloatArray | None,
     pixel_size_um: tuple[float, float] | None,
+    threads: int,
     out: str | None,
     progress: _Progress,
 ) -> Rough: ...
 def joint(
     maps: list[tuple[RoughScene, FloatArray | None, tuple[float, float] | None]],
+    threads: int,
     out: str | None,
     progress: _Progress,
 ) -> Joint: ...
 def scales(
     maps: list[tuple[RoughScene, FloatArray | None, tuple[float, float] | None]],
+    threads: int,
     out: str | None,
     progress: _Progress,
 ) -> Scales: ...
@@ -116,10 +121,14 @@ def calibrate(
     tables: dict[str, Any], threads: int, out: str | None, progress: _Progress
 ) -> tuple[_Columns, dict[str, Any], str | None, str, str]: ...
 def trade(
-    scene: Scene, combinations: int, out: str | None, progress: _Progress
+    scene: Scene, combinations: int, threads: int, out: str | None, progress: _Progress
 ) -> tuple[_Columns, float | None, str]: ...
 def identify(
-    fit: dict[str, Any] | str, set: dict[str, Any] | None, out: str | None, progress: _Progress
+    fit: dict[str, Any] | str,
+    set: dict[str, Any] | None,
+    threads: int,
+    out: str | None,
+    progress: _Progress,
 ) -> tuple[dict[str, Any], _Columns, list[str | None], str, str]: ...
 def study(
     scene: Scene | RoughScene | str,

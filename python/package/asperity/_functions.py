@@ -38,7 +38,10 @@ if TYPE_CHECKING:
     Progress = Callable[[float, str], object]
 
 
-def _path(path: PathLike | None) -> str | None:
+def _folder(path: PathLike | None) -> str | None:
+    """The folder of ``out``, where one is asked for."""
+    if path is not None and os.path.isfile(path):
+        raise _asperity.InputError(f"out is the file {os.fspath(path)}: name a folder")
     return None if path is None else os.fspath(path)
 
 
@@ -57,6 +60,15 @@ def _scene(scene: Scene | SceneTable | PathLike) -> Scene:
     )
 
 
+def _level(accuracy: object) -> str | None:
+    """An accuracy that was given, as the text that a scene holds."""
+    if accuracy is None or isinstance(accuracy, str):
+        return accuracy
+    raise _asperity.InputError(
+        f"accuracy is {accuracy!r}: give draft, standard, reference or a percentage as a text, '0.5%'"
+    )
+
+
 def _told(doubts: list[str]) -> None:
     """Tells doubts about a result as warnings, at the line that asked for it."""
     for doubt in doubts:
@@ -67,6 +79,7 @@ def crush(
     scene: Scene | SceneTable | PathLike,
     *,
     accuracy: str | None = None,
+    threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
 ) -> Crush:
@@ -74,6 +87,7 @@ def crush(
 
     :param scene: a scene, a dict of its tables, or the path of its file.
     :param accuracy: ``draft`` (5 %), ``standard`` (1 %), ``reference`` (0.2 %) or a percentage in place of the scene's.
+    :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the files of ``asperity crush``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :raises InputError: the run cannot begin; what stops it later is in ``summary["stopped"]``.
@@ -82,7 +96,7 @@ def crush(
     ``partial``.
     """
     try:
-        result = Crush(_asperity.crush(_scene(scene), accuracy, _path(out), progress))
+        result = Crush(_asperity.crush(_scene(scene), _level(accuracy), threads, _folder(out), progress))
     except BaseException as error:
         reached = getattr(error, "partial", None)
         if isinstance(reached, _asperity.Crush):
@@ -90,6 +104,19 @@ def crush(
         raise
     _told(result.warnings)
     return result
+
+
+def _pixel(pixel_size_um: PixelSize) -> tuple[float, float]:
+    """Distance of the points along x and y in µm."""
+    try:
+        dx, dy = np.broadcast_to(np.asarray(pixel_size_um, dtype=np.float64), 2).tolist()
+    except (TypeError, ValueError):
+        dx = dy = math.nan
+    if not (0.0 < dx < math.inf and 0.0 < dy < math.inf):
+        raise _asperity.InputError(
+            f"pixel_size_um is {pixel_size_um!r}: give a positive number in µm, or two of them along x and y"
+        )
+    return dx, dy
 
 
 def _heights(surface: Any, pixel_size_um: PixelSize | None) -> tuple[FloatArray, tuple[float, float]]:
@@ -130,15 +157,7 @@ def _heights(surface: Any, pixel_size_um: PixelSize | None) -> tuple[FloatArray,
         )
     if pixel_size_um is None:
         raise _asperity.InputError("pixel_size_um is missing: the distance of the heights along x and y")
-    try:
-        dx, dy = np.broadcast_to(np.asarray(pixel_size_um, dtype=np.float64), 2).tolist()
-    except ValueError:
-        dx = dy = math.nan
-    if not (0.0 < dx < math.inf and 0.0 < dy < math.inf):
-        raise _asperity.InputError(
-            f"pixel_size_um is {pixel_size_um!r}: give a positive number in µm, or two of them along x and y"
-        )
-    return np.ascontiguousarray(heights), (dx, dy)
+    return np.ascontiguousarray(heights), _pixel(pixel_size_um)
 
 
 def _surface(
@@ -148,20 +167,34 @@ def _surface(
     if isinstance(surface, _asperity.Scene):
         raise _asperity.InputError("a Scene goes to crush: give heights, the path of a map, or a RoughScene")
     scene: dict[str, Any] = dict(tables)
+    table: dict[str, Any] = dict(scene.get("surface", {}))
     whole = surface if isinstance(surface, _asperity.RoughScene) else None
     if isinstance(surface, str | os.PathLike):
         path = os.fspath(surface)
         if path.endswith(".toml"):
             whole = _asperity.RoughScene.from_toml(path)
         else:
-            scene = {**scene, "surface": {"file": path, **scene.get("surface", {})}}
+            if table.setdefault("file", path) != path:
+                raise _asperity.InputError(f"the surface is given twice: as {path} and as surface.file")
             surface = None
     if whole is not None:
         if scene or pixel_size_um is not None:
             raise _asperity.InputError("a RoughScene has its own tables: change it with its set")
         return whole, None, None
-    heights, pixel = (None, None) if surface is None else _heights(surface, pixel_size_um)
-    return _asperity.RoughScene(**{"surface": {}, **scene}), heights, pixel
+    if surface is None and pixel_size_um is not None:
+        sizes = [f"{size:.17g} um" for size in _pixel(pixel_size_um)]
+        if "pixel_size" in table:
+            raise _asperity.InputError("pixel_size_um and surface.pixel_size say the same: leave one out")
+        table["pixel_size"] = sizes
+    # keys that are wrong are told before what is missing
+    known = _asperity.RoughScene(**{**scene, "surface": table})
+    if surface is None:
+        return known, None, None
+    for key in ("file", "generate", "height_unit", "pixel_size"):
+        if key in table:
+            way = "pixel_size_um says it" if key == "pixel_size" else "heights are an array in µm"
+            raise _asperity.InputError(f"surface.{key} goes with no array: {way}; leave it out")
+    return known, *_heights(surface, pixel_size_um)
 
 
 def _is_whole(surface: Any) -> bool:
@@ -183,6 +216,7 @@ def press(
     heights: Any = None,
     *,
     pixel_size_um: PixelSize | None = None,
+    threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
     **scene: Unpack[RoughTable],
@@ -192,14 +226,15 @@ def press(
     :param heights: in µm, the first index along y, NaN or masked where nothing was measured; or a topography of the package
         SurfaceTopography; or a :class:`RoughScene`; or the path of a map or of a scene (``.toml``); absent where the tables name
         or generate a surface.
-    :param pixel_size_um: distance of the heights along x and y, or one for both.
+    :param pixel_size_um: distance of the heights along x and y, or one for both; of the points of a file that does not say it.
+    :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the files of ``asperity rough``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene: ``closure="all"``, ``material={...}``, ``load={...}``; with heights,
         ``surface={"level": "none", "periodic": True}`` says what is done to them.
     :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
     """
-    result = Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _path(out), progress))
+    result = Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), threads, _folder(out), progress))
     _told(result.warnings)
     return result
 
@@ -208,6 +243,7 @@ def joint(
     heights: Any = None,
     *,
     pixel_size_um: PixelSize | None = None,
+    threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
     **scene: Unpack[RoughTable],
@@ -216,7 +252,8 @@ def joint(
 
     :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`; or a list of
         them, which are maps of one surface and give their mean and how far they differ.
-    :param pixel_size_um: distance of the heights along x and y, or one for both.
+    :param pixel_size_um: distance of the heights along x and y, or one for both; of the points of a file that does not say it.
+    :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the files of ``asperity joint``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene: ``material={...}``, ``load={...}`` (without it to the end of the metal or of the gap),
@@ -229,7 +266,7 @@ def joint(
         {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
     ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
-    result = Joint(_asperity.joint(taken, _path(out), progress))
+    result = Joint(_asperity.joint(taken, threads, _folder(out), progress))
     _told(result.warnings)
     return result
 
@@ -238,6 +275,7 @@ def scales(
     heights: Any = None,
     *,
     pixel_size_um: PixelSize | None = None,
+    threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
     **scene: Unpack[RoughTable],
@@ -246,7 +284,8 @@ def scales(
 
     :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`; of a list of
         them the first is looked at, and the others are repeated measurements of it, which tell its noise.
-    :param pixel_size_um: distance of the heights along x and y, or one for both.
+    :param pixel_size_um: distance of the heights along x and y, or one for both; of the points of a file that does not say it.
+    :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the files of ``asperity scales``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene: ``material={...}``, ``load={...}``, ``scales={"tip_radius": "2 um"}``.
@@ -257,7 +296,7 @@ def scales(
         {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
     ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
-    result = Scales(_asperity.scales(taken, _path(out), progress))
+    result = Scales(_asperity.scales(taken, threads, _folder(out), progress))
     _told(result.warnings)
     return result
 
@@ -283,7 +322,7 @@ def extract(
     """Finds the asperities of a map, the bodies that stand for the highest of them, and holds the closures against crushing them.
 
     :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`.
-    :param pixel_size_um: distance of the heights along x and y, or one for both.
+    :param pixel_size_um: distance of the heights along x and y, or one for both; of the points of a file that does not say it.
     :param separation: islands above this separation from the mean plane, such as ``"1 um"``.
     :param share: islands above the plane that this share of the points is above; 0.1 where nothing is said.
     :param hills: hills of ISO 25178-2 that rise by at least this share of the height.
@@ -293,7 +332,9 @@ def extract(
     :param lines: lines of the map as scenes in plane strain, ``"y=0.2 mm"``.
     :param accuracy: of the scenes.
     :param crush: how many asperities are crushed and compared with the closures.
+    :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the files of ``asperity extract``; with ``crush`` a run that was stopped goes on from there.
+    :param progress: called with the share that is done and a text.
     :param scene: the tables of the scene, as for :func:`press`.
     :raises InputError: a scene that makes no sense, no asperity, more to crush than have a profile.
     """
@@ -305,10 +346,10 @@ def extract(
         "depth": depth,
         "profiles": max(profiles, crush),
         "lines": list(lines),
-        "accuracy": accuracy,
+        "accuracy": _level(accuracy),
     }
     with tempfile.TemporaryDirectory() as beside:
-        folder = beside if out is None else os.fspath(out)
+        folder = _folder(out) or beside
         taken = _surface(heights, pixel_size_um, scene)
         found = _asperity.extract(*taken, wanted, crush, threads, folder, progress)
         return Extraction(*found, folder)
@@ -329,13 +370,14 @@ def calibrate(
     :param sweep: keys of a sweep, ``slopes_deg=[2, 4]``, ``yield_stress=["200 MPa"]``; what is absent is the paper's.
     :raises InputError: values that make no sense.
     """
-    return Calibration(*_asperity.calibrate(dict(sweep), threads, _path(out), progress))
+    return Calibration(*_asperity.calibrate(dict(sweep), threads, _folder(out), progress))
 
 
 def trade(
     scene: Scene | SceneTable | PathLike,
     *,
     combinations: int = 30,
+    threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
 ) -> Trade:
@@ -343,19 +385,28 @@ def trade(
 
     :param scene: a scene, a dict of its tables, or the path of its file.
     :param combinations: how many settings differ in everything at once.
+    :param threads: 0 for all cores; the errors do not depend on it.
     :param out: folder for the files of ``asperity trade``.
     :param progress: called with the share that is done and a text.
     """
-    return Trade(*_asperity.trade(_scene(scene), combinations, _path(out), progress))
+    return Trade(*_asperity.trade(_scene(scene), combinations, threads, _folder(out), progress))
 
 
 def _with_files(curves: Any, folder: str) -> Any:
-    """Curves with files in ``folder`` in the place of arrays."""
+    """Curves with files in ``folder`` in the place of arrays; a curve alone is a list of one."""
+    if isinstance(curves, Mapping):
+        curves = [curves]
     if not isinstance(curves, list | tuple):
         return curves
 
     def with_file(i: int, curve: Any) -> Any:
         given = [name for name in ("depth_um", "force_N") if isinstance(curve, Mapping) and name in curve]
+        named = curve.items() if isinstance(curve, Mapping) else ()
+        arrays = [name for name, value in named if isinstance(value, np.ndarray)]
+        if unknown := [name for name in arrays if name not in given]:
+            raise _asperity.InputError(
+                f"curve[{i}]: no array is called {unknown[0]}: give depth_um in µm and force_N in N"
+            )
         if not given:
             return curve
         if len(given) == 1 or np.shape(curve["depth_um"]) != np.shape(curve["force_N"]):
@@ -374,6 +425,7 @@ def identify(
     fit: FitTable | Mapping[str, Any] | PathLike,
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002
+    threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
 ) -> Identification:
@@ -388,7 +440,9 @@ def identify(
     :param fit: the path of a fit file, or its tables: what is known is a value, what is sought a list of two. A curve has a
         ``file``, or arrays ``depth_um`` and ``force_N`` in its place.
     :param set: keys of the file and the value that they have instead.
+    :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the files of ``asperity identify``; files of the same name are replaced.
+    :param progress: called with the share that is done and a text.
     :raises InputError: a fit or a table of readings that makes no sense.
     """
     if isinstance(fit, Mapping):
@@ -400,9 +454,8 @@ def identify(
     with tempfile.TemporaryDirectory() as folder:
         if isinstance(tables, dict) and "curve" in tables:
             tables["curve"] = _with_files(tables["curve"], folder)
-        return Identification(
-            *_asperity.identify(tables, None if set is None else dict(set), _path(out), progress)
-        )
+        changes = None if set is None else dict(set)
+        return Identification(*_asperity.identify(tables, changes, threads, _folder(out), progress))
 
 
 def _any_scene(scene: Any) -> Any:
@@ -425,6 +478,7 @@ def study(
     curves: bool = False,
     show: str | None = None,
     shard: str | None = None,
+    accuracy: str | None = None,
     threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
@@ -445,6 +499,7 @@ def study(
     :param curves: keep the curve of every run, in ``out``.
     :param show: column that the picture shows.
     :param shard: a part such as ``"2/8"`` alone; ``asperity study merge`` joins their folders.
+    :param accuracy: of all runs, in place of the scene's.
     :param threads: 0 for all cores; results do not depend on it.
     :param out: folder for the results; a study that was stopped goes on from there.
     :param progress: called with the share that is done and a text.
@@ -452,21 +507,29 @@ def study(
     """
     given: Sequence[Any] = (sample,) if isinstance(sample, str) else sample
     table: dict[str, Any] = {"kind": given[0], "seed": seed, "points": given[1] if len(given) > 1 else None}
+    if not isinstance(seed, int) or not 0 <= seed < 2**64:
+        raise _asperity.InputError(f"seed is {seed!r}: give a whole number from 0 on")
     surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
+    if heights is not None and isinstance(scene, Mapping):
+        bare: Any = {"surface": {}, **scene}
+        scene = bare
+    changes = None if set is None else dict(set)
+    if accuracy is not None:
+        changes = {**(changes or {}), "accuracy": _level(accuracy)}
     # refuses numbers that are not finite by the path of their key
     as_json(vary)
     results = _asperity.study(
         _any_scene(scene),
         dict(vary),
         table,
-        None if set is None else dict(set),
+        changes,
         surface,
         pixel,
         curves,
         show,
         shard,
         threads,
-        _path(out),
+        _folder(out),
         progress,
     )
     return Study(list(vary), *results)

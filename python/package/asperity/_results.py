@@ -214,7 +214,9 @@ class Crush:
     def fields(self, i: int) -> Fields:
         """Fields ``i`` of ``frames``, in the order in which they came; -1 is the last."""
         if not -self.frames <= i < self.frames:
-            raise _asperity.InputError(f"there are no fields {i}: the run kept {self.frames}, counted from 0")
+            kept = f"the run kept {self.frames}, counted from 0" if self.frames else "the run kept none"
+            way = "output={'every': 1} in the scene keeps those of each increment"
+            raise _asperity.InputError(f"there are no fields {i}: {kept}; {way}")
         return Fields(self._inner.frame(i if i >= 0 else self.frames + i))
 
     def write(self, folder: PathLike) -> None:
@@ -272,7 +274,10 @@ class Rough:
         return self._inner.layer(closure, "regime")
 
     def gap(self, closure: str | None = None) -> FloatArray:
-        """Distance of the plane from the undeformed surface at the nodes, µm; 0 where they overlap."""
+        """Distance of the plane from the surface at the nodes, µm; 0 in contact.
+
+        The surface is the deformed one with a half-space, the undeformed one with a closure of islands.
+        """
         return self._inner.gap(closure)
 
     @property

@@ -21,7 +21,7 @@ const WAVES: &str = "surface.s_filter leaves out shorter waves than it says, sur
 
 /// Keys that are asked for and are none, each with a key of the table it would stand in, the message, and
 /// what to do.
-const EXPLAINED: [(&str, &str, &str, &str); 6] = [
+const EXPLAINED: [(&str, &str, &str, &str); 7] = [
     (
         "contact",
         "newton_tolerance",
@@ -39,6 +39,12 @@ const EXPLAINED: [(&str, &str, &str, &str); 6] = [
         "hollomon",
         "hardening_law = \"table\" is one of `asperity crush` alone",
         "to a map give yield_stress and hardening_exponent, or the hardness measured on this metal",
+    ),
+    (
+        "hardening_mode",
+        "hardening_law",
+        "unknown key `hardening_mode`",
+        "only `asperity crush` knows kinematic hardening: a loading and an unloading do not tell it from isotropic hardening",
     ),
     ("filter", "s_filter", "unknown key `filter`", WAVES),
     ("lambda_c", "l_filter", "unknown key `lambda_c`", WAVES),

@@ -273,11 +273,24 @@ impl Sources {
 
     fn toml_error(&self, e: &toml::de::Error) -> InputError {
         let (message, help) = suggest::reword(e.message());
+        let help = help.or_else(|| self.decimal_comma(e.span()?.start));
         let error = self.error(&message, e.span());
         match help {
             Some(help) => error.help(help),
             None => error,
         }
+    }
+}
+
+impl Sources {
+    /// The way out where the value before `place` ends at a decimal comma.
+    fn decimal_comma(&self, place: usize) -> Option<String> {
+        let (before, after) = (self.text.get(..place)?, self.text.get(place..)?);
+        let whole = before.rsplit(['=', '\n', ' ']).next()?;
+        let decimals: String = after.strip_prefix(',')?.chars().take_while(char::is_ascii_digit).collect();
+        let is_number = |digits: &str| !digits.is_empty() && digits.parse::<f64>().is_ok();
+        (is_number(whole) && is_number(&decimals))
+            .then(|| format!("write the decimal point: {whole}.{decimals}"))
     }
 }
 

@@ -313,8 +313,8 @@ impl Summary {
         let share = self.scene.material.moving_share();
         if share > FREE_SHARE && self.residual_depth.is_some() {
             warnings.push(format!(
-                "with {share} of the hardening kinematic the metal yields in reverse as the tool retreats, by too much where strains are large: \
-                 residual depth and elastic fraction may be far off; give material.kinematic_share of {FREE_SHARE} or less"
+                "the kinematic share of the hardening is {share}: during unloading the metal yields again, by too much at large strains, so that \
+                 residual depth and elastic fraction may be off by far more than their stated errors; give material.kinematic_share of {FREE_SHARE} or less"
             ));
         }
         if self.elastic_fraction.is_some_and(|fraction| fraction > 1.0) {

@@ -7,6 +7,7 @@ use super::row::{self, Outcome, Run, columns};
 use crate::batch::journal::fingerprint;
 use crate::batch::{self, Batch, Options, Shard, all_found, not_a_part};
 use crate::error::{Error, InputError};
+use crate::input::suggest::nearest;
 use crate::progress::{Observer, Progress};
 use crate::results::numbers::significant;
 use crate::results::output::{Sink, SinkExt, write_whole};
@@ -183,7 +184,10 @@ impl Study {
             };
             let known = columns(&self.runs).into_iter().collect::<Vec<_>>().join(", ");
             let error = InputError::new(format!("`{name}` is no column of the results"));
-            return Err(error.help(format!("there are {known}")).into());
+            let near = nearest(name, &columns(&self.runs).into_iter().collect::<Vec<_>>());
+            let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            let way = "the runs are kept: the same command with another --show draws at once";
+            return Err(error.help(format!("{near}{way}; there are {known}")).into());
         };
         picture::draw(&self.definition.vary, &self.runs, column).map(Some).map_err(Error::Unfinished)
     }

@@ -13,8 +13,8 @@ use super::titled;
 use crate::dimension::Dimension;
 use crate::heights;
 use crate::text::{
-    Asked, Columns, Grid, Header, MINUS, Quantity, Separator, Tables, TextError, decode, folded_name,
-    header_cells, read_grid, shortened, uncommented,
+    Asked, Columns, DeclaredUnit, Grid, Header, MINUS, Quantity, Separator, Tables, TextError, decode,
+    folded_name, header_cells, read_grid, shortened, uncommented,
 };
 use std::path::Path;
 
@@ -35,17 +35,28 @@ const fn coordinate(name: &'static str, called: &'static [&'static str], example
 const POINT: [Quantity; 3] = [
     coordinate(
         "x",
-        &["x", "x position", "x coordinate", "pos x", "x pos", "x koordinate", "rechtswert"],
+        &["x", "x axis", "x position", "x coordinate", "pos x", "x pos", "x koordinate", "rechtswert"],
         "x_um",
     ),
     coordinate(
         "y",
-        &["y", "y position", "y coordinate", "pos y", "y pos", "y koordinate", "hochwert"],
+        &["y", "y axis", "y position", "y coordinate", "pos y", "y pos", "y koordinate", "hochwert"],
         "y_um",
     ),
     coordinate(
         "z",
-        &["z", "height", "z position", "z coordinate", "pos z", "z pos", "hohe", "hoehe", "hauteur"],
+        &[
+            "z",
+            "z axis",
+            "height",
+            "z position",
+            "z coordinate",
+            "pos z",
+            "z pos",
+            "hohe",
+            "hoehe",
+            "hauteur",
+        ],
         "z_um",
     ),
 ];
@@ -119,10 +130,9 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
             notes.push(columns.said.clone());
             return points(grid, &columns, &said, request, notes);
         }
+        refuse_numbered_points(&grid, request)?;
         notes.push("x, y, z from columns 1, 2, 3".into());
-        let header = Header { line: 1, text: "", units: None };
-        let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..named };
-        let columns = header.columns(&grid.dialect, &grid.filled(), &POINT, &named, &[])?;
+        let columns = numbered_points(&grid, &named)?;
         return points(grid, &columns, &said, request, notes);
     }
     refuse_profile(&grid, request.override_file)?;
@@ -184,6 +194,11 @@ fn places_without_unit(what: &str, place: [f64; 2]) -> String {
     format!("{what} go on by {x} and {y} and name no unit: give it by pixel_size = \"{x} um\" or the like")
 }
 
+/// Units that words above the rows give to columns.
+fn declared_units(grid: &Grid<'_>) -> Vec<DeclaredUnit> {
+    grid.before.iter().flat_map(|(line, text)| DeclaredUnit::list(*line, text)).collect()
+}
+
 /// The names of Tecplot's `VARIABLES = "X [um]", "Y [um]", "Z [nm]"`, a blank between each.
 fn tecplot_names(text: &str) -> Option<String> {
     let (key, names) = text.split_once('=')?;
@@ -193,11 +208,12 @@ fn tecplot_names(text: &str) -> Option<String> {
 
 /// The columns of x, y and z where a header or the request names them.
 fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<3>>, ReadError> {
+    let declared = declared_units(grid);
     let of_tecplot = grid.before.iter().find_map(|(line, text)| Some((*line, tecplot_names(text)?)));
     if let Some((line, names)) = of_tecplot
         && let Some(header) = Header::new(&grid.dialect, line, &names, &POINT, named)
     {
-        return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?));
+        return Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &declared)?));
     }
     let mut units = None;
     // names, perhaps a line that describes them, units
@@ -206,7 +222,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
         let text = uncommented(text);
         if let Some(header) = Header::new(&grid.dialect, line, text, &POINT, named) {
             let header = Header { units, ..header };
-            let columns = header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?;
+            let columns = header.columns(&grid.dialect, &grid.filled(), &POINT, named, &declared)?;
             if named.columns[2].is_none() {
                 let cells = header_cells(&grid.dialect, text, Some(grid.columns));
                 heights::refuse_several(line, &cells, columns.picks[0][2].column, named.key)?;
@@ -219,7 +235,7 @@ fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<
         return Ok(None);
     }
     let header = Header { line: grid.lines[0], text: "", units: None };
-    Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &[])?))
+    Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, named, &declared)?))
 }
 
 /// First words of a column that counts rows.
@@ -256,7 +272,7 @@ fn half_named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Col
     match header.filter(|_| (is_length || OF_HEIGHTS.contains(&name.as_str())) && !is_down(&cells[2])) {
         Some(header) => {
             heights::refuse_several(line, &cells, 2, named.key)?;
-            Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, &third, &[])?))
+            Ok(Some(header.columns(&grid.dialect, &grid.filled(), &POINT, &third, &declared_units(grid))?))
         }
         None => {
             let minus = |cell: &str| if is_down(cell) { "-" } else { "" };
@@ -301,6 +317,27 @@ fn refuse_level(grid: &Grid<'_>, places: [usize; 3]) -> Result<(), ReadError> {
         }
         _ => Ok(()),
     }
+}
+
+/// The first three columns as x, y and z.
+fn numbered_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Columns<3>, ReadError> {
+    let header = Header { line: 1, text: "", units: None };
+    let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..*named };
+    Ok(header.columns(&grid.dialect, &grid.filled(), &POINT, &named, &declared_units(grid))?)
+}
+
+/// Numbers of the row and the column of each point before its places: nothing tells which are x and y.
+fn refuse_numbered_points(grid: &Grid<'_>, request: &Request<'_>) -> Result<(), ReadError> {
+    let others: Vec<[f64; 3]> = match grid.columns {
+        5.. => grid.values.chunks_exact(grid.columns).map(|row| [row[2], row[3], row[4]]).collect(),
+        _ => return Ok(()),
+    };
+    let is_grid = onto_grid(&others).is_ok_and(|placed| placed.heights.len() == others.len());
+    if !is_grid || request.columns.iter().any(Option::is_some) {
+        return Ok(());
+    }
+    let problem = "columns 1 and 2 are places of a grid, and so are columns 3 and 4: say which are x, y and z, like columns = { x = \"3\", y = \"4\", z = \"5\" }";
+    Err(TextError::new(grid.lines[0], problem).into())
 }
 
 /// The map through the points whose coordinates stand in `columns`.
@@ -350,9 +387,20 @@ fn points(
                 notes.push(places_without_unit("x and y", placed.step));
                 Spacing::Unknown
             }
-            None => Spacing::HeightUnits(placed.step),
+            None => {
+                if !said.has_one_unit {
+                    notes.push(
+                        "x and y in the unit of the heights (else columns = { x = \"1 [mm]\", … })".into(),
+                    );
+                }
+                Spacing::HeightUnits(placed.step)
+            }
         },
-        _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
+        // "x, y (mm)" names the unit of both
+        [Some(unit), None] | [None, Some(unit)] => {
+            notes.push("one unit for x and y".into());
+            Spacing::Metres(placed.step.map(|step| step * unit))
+        }
     };
     if picks[2].scale.is_none() {
         said.refuse_factor(&placed.heights, request)?;

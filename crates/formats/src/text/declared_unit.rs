@@ -28,7 +28,7 @@ const UNITS: [&str; 10] =
 /// Words between them and a name.
 const BETWEEN: [&str; 11] = ["of", "for", "the", "in", "der", "des", "de", "du", "di", "da", "von"];
 /// Units of columns that no table of this reader needs.
-const OF_TIME: [&str; 5] = ["s", "sec", "ms", "min", "µs"];
+pub(super) const OF_TIME: [&str; 5] = ["s", "sec", "ms", "min", "µs"];
 
 fn is_one_of(list: &[&str], word: &str) -> bool {
     list.contains(&folded(word).as_str())

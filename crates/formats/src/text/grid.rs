@@ -204,6 +204,9 @@ fn no_rows(text: &str, dialect: &Dialect) -> TextError {
             let message = format!("begins with \"{label}\", which is no number: delete the column of labels");
             TextError::new(line, message)
         }
+        None if text.contains(['[', '{']) && text.contains(|c: char| c.is_ascii_digit()) => TextError::whole(
+            "holds no rows of numbers: write them without brackets, a row of the map in each line, as numpy.savetxt does",
+        ),
         None => TextError::whole("holds no rows of numbers"),
     }
 }

@@ -67,8 +67,8 @@ pub(crate) struct Columns<const N: usize> {
     pub picks: Vec<[Pick; N]>,
     /// Columns that have a name.
     pub width: usize,
-    /// The column that numbers tests.
-    pub test: Option<usize>,
+    /// The columns that number tests: those of a specimen and of its indents.
+    pub tests: Vec<usize>,
     /// Names of the columns as a key takes them.
     pub names: [String; N],
     /// True of those of the first test whose unit is given.
@@ -97,6 +97,9 @@ const TESTS: [&str; 15] = [
 ];
 /// Words of a number: behind such a name, or alone.
 const OF_A_NUMBER: [&str; 7] = ["no", "nr", "no.", "nr.", "number", "nummer", "id"];
+
+/// Parts of names of what was asked for and not measured.
+const NOT_MEASURED: [&str; 7] = ["nominal", "setpoint", "set point", "target", "demand", "command", "soll"];
 
 /// True of the name of a column that numbers tests.
 fn numbers_tests(name: &str) -> bool {
@@ -241,7 +244,7 @@ impl<'t> Header<'t> {
                 None => heads[found[i][0].column].text.clone(),
             }),
             have_units: std::array::from_fn(|i| heads[found[i][0].column].unit.is_some()),
-            test: heads.iter().position(|head| numbers_tests(&head.name)),
+            tests: (0..heads.len()).filter(|i| numbers_tests(&heads[*i].name)).collect(),
             said: said.join(", "),
         })
     }
@@ -408,10 +411,12 @@ impl<'t> Header<'t> {
     ) -> TextError {
         let name = |pick: &Pick| format!("\"{}\"", shortened(&heads[pick.column].text));
         let names: Vec<String> = found[i].iter().take(3).map(name).collect();
-        let is_corrected = |pick: &&Pick| {
-            ["correct", "korrig", "corrig"].iter().any(|word| heads[pick.column].name.contains(word))
+        let has = |pick: &Pick, words: &[&str]| words.iter().any(|w| heads[pick.column].name.contains(w));
+        let example = |found: &Vec<Pick>| {
+            let measured = || found.iter().find(|pick| !has(pick, &NOT_MEASURED));
+            let best = found.iter().find(|pick| has(pick, &["correct", "korrig", "corrig"]));
+            name(best.or_else(measured).unwrap_or(&found[0]))
         };
-        let example = |found: &Vec<Pick>| name(found.iter().find(is_corrected).unwrap_or(&found[0]));
         let keys: Vec<String> =
             wanted.iter().zip(found).map(|(q, f)| format!("{} = {}", q.name, example(f))).collect();
         let way = key.map_or_else(

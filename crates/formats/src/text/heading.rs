@@ -33,7 +33,17 @@ const RANK_OF_DOUBT: u8 = 20;
 
 /// Words of a stress or a strain that change nothing of it: a name with others is not taken, for they may be
 /// a unit, or make another quantity of it.
-const HARMLESS: [&str; 52] = [
+const HARMLESS: [&str; 62] = [
+    "vraie",
+    "vrai",
+    "vera",
+    "reale",
+    "verdadera",
+    "wahre",
+    "plastique",
+    "plastica",
+    "plastische",
+    "effektive",
     "true",
     "cauchy",
     "real",

@@ -1,6 +1,6 @@
 //! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
 
-use super::declared_unit::{DeclaredUnit, names_factor, speaks_of_units};
+use super::declared_unit::{DeclaredUnit, OF_TIME, names_factor, speaks_of_units};
 use super::dialect::{Dialect, Separator, is_comment, is_row, is_written_as_number, uncommented};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
 use super::heading::{Quantity, folded, folded_name, is_unit, unbracketed};
@@ -8,9 +8,11 @@ use super::{TextError, shortened};
 use std::collections::HashMap;
 
 mod no_readings;
+mod numbered;
 mod repeats;
 mod segments;
 
+use numbered::{label_of, one_label};
 use repeats::leave_out_repeats;
 use segments::{is_segment, named_segment};
 
@@ -69,6 +71,8 @@ struct Block<'t, const N: usize> {
     first: usize,
     /// True where its rows begin with numbers; then a line that does not is none of them.
     has_plain_rows: bool,
+    /// True where the first cell of one of them is a number: its column is none of notes.
+    has_first_numbers: bool,
     end: Option<End>,
 }
 
@@ -109,6 +113,11 @@ struct Reader<'q, 't, const N: usize> {
 /// True of a unit, or of what stands in its place where a column has none.
 fn is_unit_or_none(cell: &str) -> bool {
     is_unit(cell) || ["", "-", "–", "—", "1", "#"].contains(&cell)
+}
+
+/// The same with units of time.
+fn is_unit_of_any(cell: &str) -> bool {
+    is_unit_or_none(cell) || OF_TIME.contains(&cell)
 }
 
 /// Reads the columns `wanted` of `text`.
@@ -273,7 +282,14 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         };
         let begins_segment =
             || cells.first().is_some_and(|cell| is_segment(cell)) && columns.picks[0].iter().all(is_number);
-        if is_words && (is_summary || block.has_plain_rows && !begins_segment()) {
+        // nor does a note end the table, in a column that has a name and no numbers
+        let has_note = || {
+            let named = header_cells(&self.dialect, block.header.text, Some(columns.width));
+            !block.has_first_numbers
+                && named.first().is_some_and(|name| !name.is_empty())
+                && columns.picks[0].iter().all(|pick| pick.column > 0 && is_number(pick))
+        };
+        if is_words && (is_summary || block.has_plain_rows && !begins_segment() && !has_note()) {
             let names = cells.iter().filter(|cell| is_word(cell)).count();
             let least = if self.dialect.separator == Separator::Blanks { columns.width } else { 2 };
             let allowed = match names >= least.max(2) {
@@ -303,7 +319,9 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     fn begin(&mut self, header: Header<'t>) {
         let first = self.series.len();
-        self.block = Some(Block { header, columns: None, first, has_plain_rows: false, end: None });
+        let (has_plain_rows, has_first_numbers) = (false, false);
+        self.block =
+            Some(Block { header, columns: None, first, has_plain_rows, has_first_numbers, end: None });
     }
 
     /// The columns of `header` above its first row of numbers, the line `text`; `None` where `row` has none.
@@ -328,18 +346,16 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     /// Takes a row below the header.
     fn row(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
-        let Some(Block { header, columns, first, has_plain_rows, end }) = self.block.take() else {
-            return Ok(());
-        };
+        let Some(mut block) = self.block.take() else { return Ok(()) };
         self.goes_on = false;
         let row: Vec<&str> = self.dialect.cells(text).collect();
-        let columns = match columns {
-            None => self.columns_above(&header, (line, text), &row)?,
+        let columns = match block.columns.take() {
+            None => self.columns_above(&block.header, (line, text), &row)?,
             known => known,
         };
         let Some(columns) = columns else {
             self.skipped += 1;
-            self.block = Some(Block { header, columns, first, has_plain_rows, end });
+            self.block = Some(block);
             return Ok(());
         };
         let more = row.get(columns.width..).and_then(|more| more.iter().find(|cell| !cell.is_empty()));
@@ -358,12 +374,10 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         }
         for (k, picks) in columns.picks.iter().enumerate() {
             let Some(reading) = self.reading(line, &row, picks)? else { continue };
-            let label = match columns.test.and_then(|t| row.get(t)) {
-                Some(label) => (*label).to_string(),
-                None => format!("{}", first + k + 1),
-            };
+            let label = label_of(columns.tests.iter().filter_map(|t| row.get(*t).copied()))
+                .unwrap_or_else(|| (block.first + k + 1).to_string());
             let end = self.series.len();
-            let place = *self.places.entry((first, label.clone())).or_insert(end);
+            let place = *self.places.entry((block.first, label.clone())).or_insert(end);
             if place == end {
                 self.series.push(Series { label, rows: Vec::new(), lines: Vec::new() });
             }
@@ -376,8 +390,11 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             self.have_units = columns.have_units;
             self.scales = columns.picks[0].map(|pick| pick.scale.unwrap_or(1.0));
         }
-        let has_plain_rows = has_plain_rows || is_row(text.trim());
-        self.block = Some(Block { header, columns: Some(columns), first, has_plain_rows, end });
+        block.has_plain_rows |= is_row(text.trim());
+        block.has_first_numbers |=
+            row.first().is_some_and(|cell| self.dialect.measured(cell).is_some_and(|(v, _)| !v.is_nan()));
+        block.columns = Some(columns);
+        self.block = Some(block);
         Ok(())
     }
 
@@ -450,7 +467,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
     }
 
     fn finish(mut self, text: &str) -> Result<SeriesTable<N>, TextError> {
-        self.join_counted_rows();
+        one_label(&mut self.series);
         let repeats = match leave_out_repeats(&mut self.series, |test| (&test.lines, &test.rows)) {
             0 => "",
             _ => ", a test that repeats another left out",
@@ -478,22 +495,5 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         );
         let (scales, names, have_units) = (self.scales, self.names, self.have_units);
         Ok(SeriesTable { series: self.series, scales, names, have_units, understood })
-    }
-
-    /// Makes one test of those of a column that counts rows: it holds another number in nearly each.
-    fn join_counted_rows(&mut self) {
-        if self.series.len() <= 2 {
-            return;
-        }
-        let mut rows: Vec<(usize, usize, [f64; N])> = Vec::new();
-        for (k, test) in self.series.iter().enumerate() {
-            rows.extend(test.lines.iter().zip(&test.rows).map(|(line, row)| (*line, k, *row)));
-        }
-        rows.sort_by_key(|(line, ..)| *line);
-        let changes = rows.windows(2).filter(|two| two[0].0 != two[1].0 && two[0].1 != two[1].1).count();
-        if 2 * changes > rows.len() {
-            let (lines, rows) = rows.into_iter().map(|(line, _, row)| (line, row)).unzip();
-            self.series = vec![Series { label: "1".into(), rows, lines }];
-        }
     }
 }

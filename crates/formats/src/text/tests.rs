@@ -4,8 +4,6 @@ use super::*;
 use crate::indentation;
 
 mod apart;
-mod encodings;
-mod lost;
 
 const COLUMNS: [Option<&str>; 2] = [None; 2];
 

@@ -51,7 +51,7 @@ pub enum Stop {
     ElasticStrain,
     /// However small the increment, the metal flows by more than the tool and what is stored have energy for.
     #[error(
-        "the metal leaps to another state, with more plastic work than there is energy for, however small the increment"
+        "the metal leaps to another state, with more plastic work than there is energy for, however small the increment: take a blunter tool, a metal that hardens more, or a smaller depth"
     )]
     Leaps,
     /// A force that the tool does not find as deep as it can go.

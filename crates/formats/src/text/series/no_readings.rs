@@ -2,9 +2,9 @@
 
 use super::super::dialect::is_row;
 use super::super::header::header_cells;
-use super::super::heading::Quantity;
+use super::super::heading::{Quantity, unbracketed};
 use super::super::{TextError, shortened};
-use super::Reader;
+use super::{Reader, is_unit_of_any};
 
 impl<const N: usize> Reader<'_, '_, N> {
     /// The number of largest size in each column of the rows, as it is written.
@@ -46,7 +46,13 @@ impl<const N: usize> Reader<'_, '_, N> {
             format!("has no header with the columns {}", asked.join(" and "))
         };
         let lines = || text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let title = lines().take_while(|(_, line)| !is_row(line.trim())).last();
+        // a line of units is none of names
+        let is_title = |(_, line): &(usize, &str)| {
+            let cells = header_cells(&self.dialect, line, None);
+            let are_units = cells.len() > 1 && cells.iter().all(|cell| is_unit_of_any(unbracketed(cell)));
+            !are_units
+        };
+        let title = lines().take_while(|(_, line)| !is_row(line.trim())).filter(is_title).last();
         if let (Some(key), Some((_, title))) = (self.named.key, title) {
             let cells = header_cells(&self.dialect, title, None);
             let cells: Vec<String> = cells.iter().take(12).map(|c| format!("\"{}\"", shortened(c))).collect();
