@@ -155,6 +155,47 @@ def test_wrong_input_names_its_key() -> None:
     assert issubclass(asperity.InputError, ValueError)
 
 
+def test_a_surface_is_given_once_and_its_pixel_too(tmp_path: pathlib.Path) -> None:
+    contact: Any = {"closure": "sneddon", "material": STEEL, "load": {"pressure": "50 MPa"}}
+    file = tmp_path / "waves.npy"
+    np.save(file, waves())
+    by_file = asperity.press(file, pixel_size_um=(1, 2), surface={"height_unit": "um"}, **contact)
+    by_array = asperity.press(waves(), pixel_size_um=(1, 2), **contact)
+    assert by_file.table["contact_area_ratio"][0] == pytest.approx(by_array.table["contact_area_ratio"][0])
+    twice: list[tuple[Any, Any, str]] = [
+        ({"pixel_size": "1 um"}, file, "leave one out"),
+        ({"file": "other.npy"}, file, "given twice"),
+        ({"file": "other.npy"}, waves(), "surface.file"),
+        ({"height_unit": "um"}, waves(), "surface.height_unit"),
+        ({"pixel_size": "1 um"}, waves(), "surface.pixel_size"),
+    ]
+    for surface, heights, words in twice:
+        with pytest.raises(asperity.InputError, match=words):
+            asperity.press(heights, pixel_size_um=1.0, surface=surface, **contact)
+    with pytest.raises(asperity.InputError, match="pixel_size"):
+        asperity.press(waves(), pixel_size=1.0, **contact)  # type: ignore[call-arg]
+
+
+def test_arguments_of_another_kind_are_named(tmp_path: pathlib.Path) -> None:
+    scene: Any = SCENE
+    with pytest.raises(asperity.InputError, match="accuracy is 0.05"):
+        asperity.crush(scene, accuracy=0.05)  # type: ignore[arg-type]
+    with pytest.raises(asperity.InputError, match="seed is -1"):
+        asperity.study(scene, {"loading.depth": "1 um..2 um"}, sample=("lhs", 2), seed=-1)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(asperity.InputError, match="name a folder"):
+        asperity.crush(scene, out=tmp_path / "file")
+    curve = {"depth_um": np.arange(3.0), "force_mN": np.arange(3.0)}
+    with pytest.raises(asperity.InputError, match="force_mN"):
+        asperity.identify({"material": SCENE["material"], "curve": curve})
+
+
+def test_threads_change_no_result() -> None:
+    scene: Any = SCENE
+    one, two = (asperity.crush(scene, accuracy="draft", threads=threads) for threads in (1, 2))
+    assert one.summary["peak_force_N"] == two.summary["peak_force_N"]
+
+
 def test_scenes_go_to_toml_and_back() -> None:
     scene = asperity.Scene(**SCENE)
     again = asperity.Scene.from_toml(scene.to_toml())

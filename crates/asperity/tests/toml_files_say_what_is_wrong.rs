@@ -134,3 +134,13 @@ fn a_later_error_points_at_the_value_or_the_table_that_lacks_it() {
         assert!(error.contains(place) && error.contains(&format!("{path}: odd")), "{path}: {error}");
     }
 }
+
+#[test]
+fn a_decimal_comma_is_told() {
+    for (text, way) in [("count = 3\ntrunk.size = 0,34\n", "0.34"), ("trunk.size = -2,5 # mm\n", "-2.5")] {
+        let told = read(text.as_bytes(), &[]).unwrap_err();
+        assert!(told.ends_with(&format!("write the decimal point: {way}")), "{told}");
+    }
+    let told = read(b"list = [1,2\n", &[]).unwrap_err();
+    assert!(!told.contains("decimal point"), "{told}");
+}

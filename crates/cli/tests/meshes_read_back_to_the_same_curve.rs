@@ -85,3 +85,20 @@ fn every_format_is_written_whole_and_replaced() {
     let end = place.run(&["mesh", "scene.toml", "-o", "b.inp", "--set", "numerics.element=q4"]);
     assert!(end.status == 0 && place.text("b.inp").contains("TYPE=CAX4"), "{}", end.err);
 }
+
+#[test]
+fn a_file_that_nobody_named_replaces_its_like_alone() {
+    let place = Place::with_scene(SCENE);
+    let write = |format: &str, force: &[&str]| {
+        place.run(&[&["mesh", "scene.toml", "--format", format, "--quiet"], force].concat())
+    };
+    assert_eq!((write("inp", &[]).status, write("inp", &[]).status), (0, 0));
+    // a deck for another program, and a file of the user
+    for start in [place.text("scene.inp"), "precious".to_string()] {
+        std::fs::write(place.path("scene.inp"), &start).unwrap();
+        let end = write("abaqus", &[]);
+        assert!(end.status == 2 && end.err.contains("--force"), "{}", end.err);
+        assert_eq!(place.text("scene.inp"), start);
+        assert_eq!(write("abaqus", &["--force"]).status, 0);
+    }
+}

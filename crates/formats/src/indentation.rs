@@ -225,9 +225,13 @@ fn part_tests(table: &mut SeriesTable<2>) {
             let [before, line] = [test.lines[row - 1], test.lines[*row]];
             let is_between =
                 |of: &Vec<usize>| of.get(of.partition_point(|l| *l <= before)).is_some_and(|l| *l < line);
-            is_one || of_tests.iter().any(is_between)
+            of_tests.iter().any(is_between)
         };
-        let starts: Vec<usize> = starts_of_tests(&test.rows).into_iter().filter(comes_again).collect();
+        let starts: Vec<usize> = if is_one {
+            starts_of_tests(&test.rows, FALL_OVER_STEPS)
+        } else {
+            starts_of_tests(&test.rows, 0.0).into_iter().filter(comes_again).collect()
+        };
         lines.extend(starts.iter().map(|&row| test.lines[row]));
         let count = starts.len();
         let mut parts: Vec<Series<2>> = Vec::with_capacity(count + 1);
@@ -255,16 +259,16 @@ fn part_tests(table: &mut SeriesTable<2>) {
 }
 
 /// The rows at which another test begins. Depth and force fall there from one row to the next to those of a
-/// start, and go up again by more readings than may stand alone.
-fn starts_of_tests(rows: &[[f64; 2]]) -> Vec<usize> {
-    let mut steps: Vec<f64> = rows.windows(2).map(|two| (two[1][0] - two[0][0]).abs()).collect();
-    steps.sort_by(f64::total_cmp);
-    let step = steps.get(steps.len() / 2).copied().unwrap_or(0.0);
+/// start, by more than `steps` median steps, and go up again by more readings than may stand alone.
+fn starts_of_tests(rows: &[[f64; 2]], steps: f64) -> Vec<usize> {
+    let mut sizes: Vec<f64> = rows.windows(2).map(|two| (two[1][0] - two[0][0]).abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let step = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
     let (mut starts, mut most, mut since) = (Vec::new(), [0.0_f64; 2], 0);
     for (row, two) in rows.windows(2).enumerate().map(|(i, two)| (i + 1, two)) {
         most = [0, 1].map(|k| most[k].max(two[0][k]));
         let [[before, _], [depth, force]] = [two[0], two[1]];
-        let is_fall = before >= LEAST_FALL * most[0] && before - depth >= FALL_OVER_STEPS * step;
+        let is_fall = before >= LEAST_FALL * most[0] && before - depth >= steps * step;
         let is_start = depth <= DEPTH_OF_A_START * most[0] && force <= DEPTH_OF_A_START * most[1];
         let goes_up = || {
             // readings of nothing end at once

@@ -40,10 +40,19 @@ fn a_test_has_as_many_numbers_as_columns_count_it() {
         text
     };
     // the name of the first column is one of a specimen, or none that is known
-    for head in ["specimen,indent", "indent,specimen", "material,test", "temperature,Run"] {
+    for head in ["specimen,indent", "Sample,Eindruck", "material,test", "temperature,Run"] {
         let text = format!("{head},depth_nm,load_mN\n{}", rows(","));
         assert_eq!(largest_forces(&text), [60.0, 30.0, 48.0, 24.0], "{head}");
     }
+    // few readings, long steps
+    let mut few = "metal,test,depth_nm,load_mN\n".to_string();
+    for (metal, test, largest) in forces {
+        for depth in [0, 100, 200, 400, 600, 800, 1000, 900] {
+            let force = if depth == 900 { 0.3 } else { 1e-6 * f64::from(depth * depth) } * largest;
+            few += &format!("{metal},{test},{depth},{force}\n");
+        }
+    }
+    assert_eq!(largest_forces(&few), [60.0, 30.0, 48.0, 24.0]);
     // a column that counts the rows of each test tells nothing
     let mut counted = "specimen,measurement,depth_nm,load_mN\n".to_string();
     for (specimen, largest) in [("A", 60.0), ("B", 30.0), ("C", 20.0)] {
@@ -151,6 +160,7 @@ fn units_in_words_above_points_are_theirs() {
         "# units: mm mm um\n# X Y Z\n",
         "X-axis: mm\nY-axis: mm\nZ-axis: um\nX Y Z\n",
         "# Units: mm, mm, um\n",
+        "# X-axis: mm\n# Y-axis: mm\n# Z-axis: um\n",
     ] {
         let (step, unit) = points(&format!("{head}{rows}"));
         assert!((step - 5e-7).abs() < 1e-12 && unit == Some(1e-6), "{head}: {step} {unit:?}");

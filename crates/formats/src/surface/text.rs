@@ -13,8 +13,8 @@ use super::titled;
 use crate::dimension::Dimension;
 use crate::heights;
 use crate::text::{
-    Asked, Columns, DeclaredUnit, Grid, Header, MINUS, Quantity, Separator, Tables, TextError, decode,
-    folded_name, header_cells, read_grid, shortened, uncommented,
+    Asked, Columns, DeclaredColumn, DeclaredUnit, Grid, Header, MINUS, Quantity, Separator, Tables,
+    TextError, decode, folded_name, header_cells, read_grid, shortened, uncommented,
 };
 use std::path::Path;
 
@@ -323,7 +323,13 @@ fn refuse_level(grid: &Grid<'_>, places: [usize; 3]) -> Result<(), ReadError> {
 fn numbered_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Columns<3>, ReadError> {
     let header = Header { line: 1, text: "", units: None };
     let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..*named };
-    Ok(header.columns(&grid.dialect, &grid.filled(), &POINT, &named, &declared_units(grid))?)
+    let mut declared = declared_units(grid);
+    for unit in &mut declared {
+        if let Some(k) = POINT.iter().position(|quantity| unit.column.is_called(quantity)) {
+            unit.column = DeclaredColumn::Placed(k, grid.columns);
+        }
+    }
+    Ok(header.columns(&grid.dialect, &grid.filled(), &POINT, &named, &declared)?)
 }
 
 /// Numbers of the row and the column of each point before its places: nothing tells which are x and y.

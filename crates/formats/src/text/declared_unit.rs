@@ -45,6 +45,11 @@ pub(crate) fn speaks_of_units(text: &str) -> bool {
 }
 
 impl DeclaredColumn {
+    /// True of one by a name of `quantity`.
+    pub(crate) fn is_called(&self, quantity: &Quantity) -> bool {
+        matches!(self, DeclaredColumn::Named(name) if quantity.called.contains(&name.as_str()))
+    }
+
     /// True for each of `heads` that it is: the one in this place, those of this name; where none is called
     /// so, those of the quantity that has it, or whose last words it is.
     pub(super) fn is_meant_of(&self, heads: &[Heading], wanted: &[Quantity]) -> Vec<bool> {

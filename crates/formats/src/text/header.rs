@@ -78,7 +78,7 @@ pub(crate) struct Columns<const N: usize> {
 }
 
 /// Names of the column that numbers tests.
-const TESTS: [&str; 15] = [
+const TESTS: [&str; 26] = [
     "test",
     "specimen",
     "indent",
@@ -94,6 +94,17 @@ const TESTS: [&str; 15] = [
     "kurve",
     "mesure",
     "location",
+    "material",
+    "metal",
+    "alloy",
+    "werkstoff",
+    "eindruck",
+    "empreinte",
+    "impronta",
+    "replicate",
+    "repeat",
+    "trial",
+    "site",
 ];
 /// Words of a number: behind such a name, or alone.
 const OF_A_NUMBER: [&str; 7] = ["no", "nr", "no.", "nr.", "number", "nummer", "id"];
@@ -244,7 +255,9 @@ impl<'t> Header<'t> {
                 None => heads[found[i][0].column].text.clone(),
             }),
             have_units: std::array::from_fn(|i| heads[found[i][0].column].unit.is_some()),
-            tests: (0..heads.len()).filter(|i| numbers_tests(&heads[*i].name)).collect(),
+            tests: (0..heads.len())
+                .filter(|i| numbers_tests(&heads[*i].name) && heads[*i].unit.is_none())
+                .collect(),
             said: said.join(", "),
         })
     }

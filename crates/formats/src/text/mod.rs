@@ -19,7 +19,7 @@ pub use header::Asked;
 pub use heading::Quantity;
 pub use series::{Series, SeriesTable, header_line, read_series};
 
-pub(crate) use declared_unit::DeclaredUnit;
+pub(crate) use declared_unit::{DeclaredColumn, DeclaredUnit};
 pub(crate) use dialect::uncommented;
 pub(crate) use grid::names_above;
 pub(crate) use header::{Columns, Header, MINUS, header_cells};

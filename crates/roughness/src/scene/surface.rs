@@ -364,7 +364,8 @@ impl SurfaceScene {
                 let [x, y, a, b] = [x, y, a, b].map(|side| rounded(side * 1e6, 7));
                 let message = format!(
                     "the file has pixels of {x} x {y} um, the scene says {a} x {b} um: remove pixel_size, or set \
-                     override = true"
+                     override = true to take it; a list of points whose x and y are in another unit than z names both, \
+                     columns = {{ x = \"1 [mm]\", y = \"2 [mm]\", z = \"3 [um]\" }}"
                 );
                 return error("surface.pixel_size", message);
             }
