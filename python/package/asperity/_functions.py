@@ -186,15 +186,16 @@ def _surface(
         if "pixel_size" in table:
             raise _asperity.InputError("pixel_size_um and surface.pixel_size say the same: leave one out")
         table["pixel_size"] = sizes
-    # keys that are wrong are told before what is missing
-    known = _asperity.RoughScene(**{**scene, "surface": table})
     if surface is None:
-        return known, None, None
+        return _asperity.RoughScene(**{**scene, "surface": table}), None, None
     for key in ("file", "generate", "height_unit", "pixel_size"):
         if key in table:
             way = "pixel_size_um says it" if key == "pixel_size" else "heights are an array in µm"
             raise _asperity.InputError(f"surface.{key} goes with no array: {way}; leave it out")
-    return known, *_heights(surface, pixel_size_um)
+    given = None if pixel_size_um is None else _heights(surface, pixel_size_um)
+    # a misspelt pixel_size_um is told as a key
+    known = _asperity.RoughScene(**{**scene, "surface": table})
+    return known, *(given or _heights(surface, pixel_size_um))
 
 
 def _is_whole(surface: Any) -> bool:
