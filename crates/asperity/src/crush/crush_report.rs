@@ -7,6 +7,7 @@ use crate::input::toml_file::to_toml;
 use crate::page::{self, Numbers, Report};
 use crate::results::columns::{Described, Unit};
 use crate::results::numbers::{rounded, significant};
+use crate::results::output::json;
 use crate::results::units::{MICROMETRE, per_length};
 use asperity_simulation::scene::Symmetry;
 use maud::{Markup, html};
@@ -53,7 +54,7 @@ impl Crush {
             100.0 * scene.accuracy.promise()
         );
         let report = Report {
-            title: "A crush",
+            title: &self.title()?,
             about: &about,
             verdict: &self.finding(),
             warnings: &summary.warnings(),
@@ -61,6 +62,21 @@ impl Crush {
             inputs: &[("The scene, to run it again", to_toml(scene).map_err(Error::Unfinished)?)],
         };
         Ok(report.html())
+    }
+
+    /// Tool and metal.
+    fn title(&self) -> Result<String, Error> {
+        let scene = &self.summary.scene;
+        let shape = json(&scene.tool.shape)?;
+        let material = &scene.material;
+        let stress =
+            material.yield_stress.map(|stress| format!(", yield stress {} MPa", significant(stress.0 / 1e6)));
+        Ok(format!(
+            "A crush: tool {}, E {} GPa{}",
+            shape.trim_matches(|c: char| !c.is_alphanumeric()),
+            significant(material.youngs_modulus.0 / 1e9),
+            stress.unwrap_or_default()
+        ))
     }
 
     /// The result in a sentence.
