@@ -18,10 +18,10 @@ pub(super) fn refuse_doubtful(
 ) -> Result<(), TextError> {
     refuse_disorder(test)?;
     refuse_lone(test, table.scales)?;
-    refuse_last_row(test)?;
     refuse_negative(test, &table.names, turned)?;
     refuse_reverse(test)?;
-    refuse_baseline(test)
+    refuse_baseline(test)?;
+    refuse_last_row(test)
 }
 
 /// Refuses a test whose forces, or whose depths at the largest force, are negative.
