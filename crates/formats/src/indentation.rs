@@ -1,135 +1,17 @@
 //! Curves of depth and force, as indentation and testing instruments write them.
 
 use crate::cantilever;
-use crate::dimension::Dimension;
-use crate::text::{Asked, Decimal, MINUS, Quantity, Series, SeriesTable, TextError, read_series};
+use crate::text::{Asked, Decimal, MINUS, Series, SeriesTable, TextError, read_series};
 use doubts::{MOST_LONE, refuse_doubtful};
 use std::mem::take;
 
 mod doubts;
+mod quantities;
+
+pub use quantities::{DEPTH, FORCE};
 
 /// Depth and force, m and N, as they were read, one after the other in time.
 pub type Readings = Vec<[f64; 2]>;
-
-/// The depth of a curve.
-pub const DEPTH: Quantity = Quantity {
-    name: "depth",
-    dimension: Dimension::Length,
-    called: &[
-        "depth",
-        "displacement",
-        "indentation depth",
-        "penetration depth",
-        "penetration",
-        "indentation",
-        "travel",
-        "disp",
-        "h",
-        "pd",
-        "extension",
-        "crosshead",
-        "lvdt",
-        "wegaufnehmer",
-        "extensometer",
-        "extensometre",
-        "net displacement",
-        "stroke",
-        "compression",
-        "eindringtiefe",
-        "tiefe",
-        "weg",
-        "standardweg",
-        "traversenweg",
-        "hub",
-        "verschiebung",
-        "enfoncement",
-        "profondeur",
-        "deplacement",
-        "course",
-        "profondita",
-        "spostamento",
-        "corsa",
-        "profundidad",
-        "desplazamiento",
-        "penetracion",
-        "carrera",
-        "profundidade",
-        "deslocamento",
-        "深さ",
-        "押込み深さ",
-        "押し込み深さ",
-        "変位",
-        "ストローク",
-        "位移",
-        "深度",
-        "压入深度",
-        "压痕深度",
-        "변위",
-        "깊이",
-        "스트로크",
-        "行程",
-        "глубина",
-        "глубина внедрения",
-        "перемещение",
-        "głębokość",
-        "przemieszczenie",
-        "diepte",
-        "indringdiepte",
-        "verplaatsing",
-        "djup",
-        "intryckningsdjup",
-        "forskjutning",
-        "hloubka",
-    ],
-    example: "depth_um",
-};
-
-/// The force of a curve.
-pub const FORCE: Quantity = Quantity {
-    name: "force",
-    dimension: Dimension::Force,
-    called: &[
-        "force",
-        "load",
-        "p",
-        "f",
-        "fn",
-        "fz",
-        "normal force",
-        "kraft",
-        "prufkraft",
-        "pruefkraft",
-        "normalkraft",
-        "standardkraft",
-        "last",
-        "charge",
-        "force normale",
-        "effort",
-        "forza",
-        "carico",
-        "fuerza",
-        "carga",
-        "forca",
-        "荷重",
-        "試験力",
-        "载荷",
-        "力",
-        "하중",
-        "시험력",
-        "힘",
-        "试验力",
-        "нагрузка",
-        "сила",
-        "усилие",
-        "siła",
-        "obciążenie",
-        "kracht",
-        "belasting",
-        "sila",
-        "zatiženi",
-    ],
-    example: "force_mN",
-};
 
 /// Reads the tests of `text`; `columns` names those of depth and force where their names are unusual, with a
 /// minus before a name whose numbers change sign, and `missing` is a number that stands for no reading.

@@ -1,13 +1,14 @@
 //! Doubts about the rows of a test: signs, order, readings that are none.
 
-use super::{DEPTH, FORCE};
+use super::quantities::{DEPTH, FORCE};
 use crate::text::{Series, SeriesTable, TextError};
 
 /// The largest negative force over the largest positive one from which compression is counted negative: an
 /// attraction of the tip is not so much larger than the load.
 const NEGATIVE_SHARE: f64 = 5.0;
 
-/// Refuses a `test` of `table` whose rows are no readings of one, in time; `turned` tells which signs a key turns.
+/// Refuses a `test` of `table` whose rows are no readings of one, in the order of time; `turned` tells which
+/// signs a key turns.
 ///
 /// # Errors
 /// The first doubt, with a way out.

@@ -11,36 +11,12 @@ mod no_readings;
 mod numbered;
 mod repeats;
 mod segments;
+mod table;
 
 use numbered::{label_of, one_label};
 use repeats::leave_out_repeats;
 use segments::{is_segment, named_segment};
-
-/// The readings of one test.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series<const N: usize> {
-    /// Its name or number.
-    pub label: String,
-    /// Readings, SI.
-    pub rows: Vec<[f64; N]>,
-    /// Line of each, from 1.
-    pub lines: Vec<usize>,
-}
-
-/// All tests of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SeriesTable<const N: usize> {
-    /// Each test that has readings; at least one.
-    pub series: Vec<Series<N>>,
-    /// SI value of one in each column of the first test.
-    pub scales: [f64; N],
-    /// Names of these columns as a key takes them.
-    pub names: [String; N],
-    /// True of those of them that have a unit in the file.
-    pub have_units: [bool; N],
-    /// Its interpretation, in one sentence.
-    pub understood: String,
-}
+pub use table::{Series, SeriesTable};
 
 /// Most rows of numbers below the names of what sums up a table.
 const ROWS_OF_A_SUMMARY: usize = 2;

@@ -1,6 +1,6 @@
 //! Tests that columns number: those of a specimen, of its indents, of a run.
 
-use super::Series;
+use super::table::Series;
 use std::collections::HashMap;
 
 /// Between the numbers of a test in several columns, until all rows are there.
