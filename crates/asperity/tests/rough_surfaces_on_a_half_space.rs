@@ -387,3 +387,25 @@ fn a_saturated_contact_says_so() {
     assert!(verdict("300 MPa").unwrap().contains("saturated"));
     assert!(!verdict("50 GPa").unwrap().contains("saturated"));
 }
+
+#[test]
+fn slips_of_metal_and_filter_are_told() {
+    let told = |strength: &str, top: &str, filter: &str| {
+        let load = "[load]\npressure = \"20 MPa\"\n[half_space]\nload_points = 1\n[output]\nmaps = false\n";
+        let scene = scene(strength, &format!("judge = false\n{top}"), load);
+        let scene = if filter.is_empty() { scene } else { scene.with(&[filter.to_string()]).unwrap() };
+        press(&scene, &mut |_| true).unwrap().summary.warnings.join("\n")
+    };
+    let [elastic, limited] = ["half-space", "half-space-plastic"].map(|name| format!("closure = \"{name}\""));
+    // an elastic contact of this slope has GPa where it touches
+    for strength in ["yield_stress = \"300 MPa\"", "hardness = \"1 GPa\""] {
+        assert!(told(strength, &elastic, "").contains("there it yields"), "{strength}");
+        assert!(!told(strength, &limited, "").contains("there it yields"), "{strength}");
+    }
+    assert!(!told("", &elastic, "").contains("there it yields"));
+    assert!(told("hardness = \"150 GPa\"", &limited, "").contains("look at its unit"));
+    assert!(!told("hardness = \"12 GPa\"", &limited, "").contains("look at its unit"));
+    for (filter, is_short) in [("surface.l_filter=2.5 um", true), ("surface.l_filter=40 um", false)] {
+        assert_eq!(told("", &elastic, filter).contains("from point to point"), is_short, "{filter}");
+    }
+}

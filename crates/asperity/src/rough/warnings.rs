@@ -31,7 +31,7 @@ pub(super) fn stopped_before(closure: Closure) -> String {
 
 /// Of the scene as a whole: an unused fluid, its material, its surface and its load.
 pub(crate) fn scene_warnings(surface: &Surface, scene: &Scene) -> Warnings {
-    let first = unused_fluid(scene).into_iter().chain(two_materials(scene));
+    let first = unused_fluid(scene).into_iter().chain(two_materials(scene)).chain(impossible_hardness(scene));
     first.chain(missing_points(surface, scene)).chain(surface_warnings(surface, scene)).collect()
 }
 
@@ -94,6 +94,38 @@ fn unused_fluid(scene: &Scene) -> Option<String> {
     scene.fluid.as_ref().map(|_| format!("[fluid] is not used: {text}"))
 }
 
+/// Hardness over Young's modulus beyond which no metal has it: hardened steels have 0.05.
+const MOST_HARDNESS: f64 = 0.1;
+
+/// A hardness that no metal has.
+fn impossible_hardness(scene: &Scene) -> Option<String> {
+    let hardness = scene.material.hardness?;
+    let share = hardness.0 / scene.material.youngs_modulus.0;
+    (share > MOST_HARDNESS).then(|| {
+        format!(
+            "hardness = {hardness} is {} times Young's modulus, that of metals at most 0.05 times: look at its unit",
+            with_digits(share, 2)
+        )
+    })
+}
+
+/// A metal that yields, pressed elastically by the only closure of the scene.
+fn yields(closure: Closure, one: &SpaceContact, scene: &Scene) -> Option<String> {
+    let material = &scene.material;
+    let limit = material.hardness.map(|h| h.0).or_else(|| Some(3.0 * material.yield_stress?.0))?;
+    let mean = one.contact.pressure / one.contact.area.corrected;
+    let is_alone = closure == Closure::HalfSpace && scene.closure.closures().len() == 1;
+    (is_alone && mean > limit).then(|| {
+        format!(
+            "half-space: its mean pressure, {} MPa, is {} times what this metal bears ({} MPa): there it yields, and touches on a larger area; \
+             closure \"half-space-plastic\" limits the pressure",
+            with_digits(mean / MEGAPASCAL, 3),
+            with_digits(mean / limit, 2),
+            with_digits(limit / MEGAPASCAL, 3)
+        )
+    })
+}
+
 /// A hardness that is not that of the yield stress. Where hardening is known the half-space tells, by the
 /// atlas of cones at the slope of the patches.
 fn two_materials(scene: &Scene) -> Option<String> {
@@ -142,7 +174,8 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
     let [flat, steep] = USUAL_SLOPES_DEG;
     let unit = Some(parameters.beta_deg()).filter(|beta| *beta > 0.0 && !(flat..=steep).contains(beta)).map(|beta| {
         format!(
-            "the mean slope is {beta:.2e} deg, that of machined surfaces {flat} to {steep} deg: look whether height_unit and pixel_size are right"
+            "the mean slope is {} deg, that of machined surfaces {flat} to {steep} deg: look whether height_unit and pixel_size are right",
+            with_digits(beta, 2)
         )
     });
     let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
@@ -151,7 +184,26 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
             above / MICROMETRE
         )
     });
-    [seam, spike, unit, apart].into_iter().flatten().chain(tilt(surface, scene)).collect()
+    let of_pixels = short_waves(surface, scene);
+    [seam, spike, unit, apart, of_pixels].into_iter().flatten().chain(tilt(surface, scene)).collect()
+}
+
+/// Pixels of a wave below which a map hardly shows it.
+const FEWEST_PIXELS_OF_A_WAVE: f64 = 8.0;
+
+/// A filter that leaves of a measured map only waves of few pixels.
+fn short_waves(surface: &Surface, scene: &Scene) -> Option<String> {
+    let longest = scene.surface.l_filter?;
+    let [x, y] = surface.map.pixel();
+    let pixels = longest.0 / x.max(y);
+    (pixels < FEWEST_PIXELS_OF_A_WAVE).then(|| {
+        format!(
+            "surface.l_filter = {longest} is {} pixels: what it leaves changes from point to point, as noise does (Sq {} um); longer waves \
+             need a longer l_filter, or none",
+            with_digits(pixels, 2),
+            with_digits(surface.parameters.sq / MICROMETRE, 3)
+        )
+    })
 }
 
 /// Share of Sq that the plane of a surface may be without a word.
@@ -222,7 +274,8 @@ pub(super) fn half_space_warnings(closure: Closure, one: &SpaceContact, scene: &
             closure.name()
         )
     });
-    unbalanced.chain(doubtful).chain(rival).chain(coarse).chain(ends).collect()
+    let yields = yields(closure, one, scene);
+    unbalanced.chain(doubtful).chain(rival).chain(coarse).chain(ends).chain(yields).collect()
 }
 
 /// Share of the load below which nothing is said of it: no number moves by more.
