@@ -117,7 +117,7 @@ fn yields(closure: Closure, one: &SpaceContact, scene: &Scene) -> Option<String>
     let is_alone = closure == Closure::HalfSpace && scene.closure.closures().len() == 1;
     (is_alone && mean > limit).then(|| {
         format!(
-            "half-space: its mean pressure, {} MPa, is {} times what this metal bears ({} MPa): there it yields, and touches on a larger area; \
+            "half-space: its mean pressure, {} MPa, is {} times what this metal supports ({} MPa): there it yields, and touches on a larger area; \
              closure \"half-space-plastic\" limits the pressure",
             with_digits(mean / MEGAPASCAL, 3),
             with_digits(mean / limit, 2),
