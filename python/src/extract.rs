@@ -84,7 +84,7 @@ pub fn extract<'py>(
 ) -> PyResult<Taken<'py>> {
     let scene = with_heights(scene, heights, pixel_size_um)?;
     let wanted = wanted.extract::<Wanted>()?.extraction()?;
-    let result = work::run(py, 0, progress, |tell| {
+    let result = work::run(py, threads, progress, |tell| {
         let found = take(&scene, &wanted)?;
         found.check_count(count)?;
         let mut sink = Directory::create(&folder)?;

@@ -180,6 +180,10 @@ def test_arguments_of_another_kind_are_named(tmp_path: pathlib.Path) -> None:
     scene: Any = SCENE
     with pytest.raises(asperity.InputError, match="accuracy is 0.05"):
         asperity.crush(scene, accuracy=0.05)  # type: ignore[arg-type]
+    asperity.study(scene, {"loading.depth": ["1 um"]}, seed=np.int64(3))  # type: ignore[arg-type]
+    for threads in (-1, 1.5):
+        with pytest.raises(asperity.InputError, match="threads is"):
+            asperity.crush(scene, threads=threads)  # type: ignore[arg-type]
     with pytest.raises(asperity.InputError, match="seed is -1"):
         asperity.study(scene, {"loading.depth": "1 um..2 um"}, sample=("lhs", 2), seed=-1)
     (tmp_path / "file").write_text("")

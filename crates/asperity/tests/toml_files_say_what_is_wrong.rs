@@ -141,6 +141,8 @@ fn a_decimal_comma_is_told() {
         let told = read(text.as_bytes(), &[]).unwrap_err();
         assert!(told.ends_with(&format!("write the decimal point: {way}")), "{told}");
     }
+    let told = read(b"trunk.size = 1,000\n", &[]).unwrap_err();
+    assert!(told.ends_with("write numbers without a comma: 1.000 or 1000"), "{told}");
     let told = read(b"list = [1,2\n", &[]).unwrap_err();
     assert!(!told.contains("decimal point"), "{told}");
 }

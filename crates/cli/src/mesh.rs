@@ -99,14 +99,15 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
 
 /// Refuses to write `new` over a file that nobody named and that does not begin as it does.
 fn refuse_other(path: &Path, new: &[u8]) -> Result<(), InputError> {
-    // those of a deck name the scene and the program that reads it
-    const FIRST_LINES: usize = 4;
-    let start = |bytes: &[u8]| {
-        let lines = if new.starts_with(b"*") { FIRST_LINES } else { 1 };
-        bytes.split(|b| *b == b'\n').take(lines).map(<[u8]>::to_vec).collect::<Vec<_>>()
+    let first_line = |bytes: &[u8]| bytes.split(|b| *b == b'\n').next().map(<[u8]>::to_vec);
+    // both programs read `*HEADING`, one alone rigid bodies
+    let has = |bytes: &[u8], word: &str| String::from_utf8_lossy(bytes).contains(word);
+    let is_alike = |old: &[u8]| {
+        let same = |word: &str| has(old, word) == has(new, word);
+        first_line(old) == first_line(new) && same("written by asperity") && same("*RIGID BODY")
     };
     match std::fs::read(path) {
-        Ok(old) if start(&old) != start(new) => {
+        Ok(old) if !is_alike(&old) => {
             Err(InputError::new(format!("{} is there and no earlier file of this command", path.display()))
                 .help("name another with -o, or write over it with --force"))
         }

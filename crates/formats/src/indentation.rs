@@ -174,7 +174,7 @@ fn goes_on(test: &[[f64; 2]], next: &[[f64; 2]]) -> bool {
     let step = |two: Option<&[[f64; 2]]>, k: usize| two.map_or(0.0, |two| (two[1][k] - two[0][k]).abs());
     let steps = |k: usize| step(test.windows(2).next_back(), k).max(step(next.windows(2).next(), k));
     // a metal takes more force where the tool goes deeper
-    let is_a_way = (start[0] - end[0]) * (start[1] - end[1]) >= 0.0;
+    let is_a_way = (start[0] - end[0]) * (start[1] - end[1]) > 0.0;
     let has_steps = is_a_way && test.len() >= MIN_READINGS_OF_A_PART;
     let is_near = |k: usize| {
         let near = if has_steps { STEPS_BETWEEN_PARTS * steps(k) } else { 0.0 };

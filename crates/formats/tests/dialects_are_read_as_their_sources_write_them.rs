@@ -128,6 +128,16 @@ fn curves() -> Vec<Dialect> {
             "Depth (nm),\tLoad (mN)\n100.0,\t2\n200.0,\t8\n",
         ),
         (
+            "notes in the first column, beside some readings",
+            "sheets of MTS NanoSuite, whose first column has marks",
+            "Note,Depth (nm),Load (mN)\n,100,2\npop-in,200,8\n",
+        ),
+        (
+            "names and units in Korean, units in a line of their own",
+            "Shimadzu TRAPEZIUM",
+            "\"1 _ 1\",,\n\"Time\",\"Force\",\"스트로크\"\n\"sec\",\"N\",\"mm\"\n0.0,0.002,0.0001\n0.5,0.008,0.0002\n",
+        ),
+        (
             "name and unit in cells of their own",
             "spreadsheets and loggers",
             "Time,s,Depth,nm,Load,mN\n0,100,2\n1,200,8\n",
@@ -234,6 +244,12 @@ fn curves() -> Vec<Dialect> {
 /// Each holds the same heights as [`maps`], point by point.
 fn points() -> Vec<Dialect> {
     vec![
+        dialect(
+            "units of all columns in the words above",
+            "scripts, numpy.savetxt with a header",
+            "points.txt",
+            "# Units: mm, mm, um\n# X Y Z\n0 0 0.001\n0.001 0 0.002\n0.002 0 0.003\n0 0.001 0.004\n0.001 0.001 nan\n0.002 0.001 0.006\n",
+        ),
         dialect(
             "units in the names, decimal commas",
             "GOM, PolyWorks and German spreadsheets",

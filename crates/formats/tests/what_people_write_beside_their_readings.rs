@@ -53,6 +53,22 @@ fn a_test_has_as_many_numbers_as_columns_count_it() {
         }
     }
     assert_eq!(largest_forces(&few), [60.0, 30.0, 48.0, 24.0]);
+    // a mark beside the name is no unit; a merged cell stands in its first row
+    for head in ["Specimen [-]", "Test (No.)", "Sample (ID)"] {
+        let mut text = format!("{head},depth_nm,load_mN\n");
+        for (specimen, largest) in [("1", 60.0), ("2", 48.0)] {
+            for (i, [depth, force]) in test_of(8, largest).into_iter().enumerate().skip(2) {
+                text += &format!("{},{depth},{force}\n", if i == 2 { specimen } else { "" });
+            }
+        }
+        assert_eq!(largest_forces(&text), [60.0, 48.0], "{head}");
+    }
+    // three readings at each load of a sample
+    let mut loads = "Sample,Measurement,depth_nm,load_mN\n".to_string();
+    for (i, [depth, force]) in test_of(9, 60.0).into_iter().enumerate() {
+        loads += &format!("S1,{},{depth},{force}\n", i / 3);
+    }
+    assert_eq!(largest_forces(&loads), [60.0]);
     // a column that counts the rows of each test tells nothing
     let mut counted = "specimen,measurement,depth_nm,load_mN\n".to_string();
     for (specimen, largest) in [("A", 60.0), ("B", 30.0), ("C", 20.0)] {
@@ -78,6 +94,16 @@ fn a_note_beside_a_reading_takes_nothing_from_it() {
         let table = indentation::read(&with_notes(notes), [None; 2], None).expect("readable");
         assert_eq!(table.series[0].rows.len(), 10, "{notes:?}");
     }
+    // a footer is no reading
+    for footer in [
+        "Std. Dev.,12,0.4",
+        "Modulus,210,5\nHardness,5.1,0.2",
+        "Peak,1000,30",
+        ",,\nResults,,\nH (GPa),5.1,0.2",
+    ] {
+        let table = indentation::read(&format!("{}{footer}\n", with_notes(["", "", ""])), [None; 2], None);
+        assert_eq!(table.expect(footer).series[0].rows.len(), 10, "{footer}");
+    }
     // where the first column holds numbers a word ends the table
     let timed = "time_s,depth_nm,load_mN\n0,0,0\n1,500,8\n2,1000,30\nMax,1000,30\n";
     assert_eq!(indentation::read(timed, [None; 2], None).expect("readable").series[0].rows.len(), 3);
@@ -93,8 +119,15 @@ fn a_last_row_that_is_no_reading_is_refused() {
         let message = refusal(&format!("{text}{last}\n"));
         assert!(message.starts_with("line 12:") && message.contains(why), "{message}");
     }
-    // a reload goes on
-    assert_eq!(largest_forces(&format!("{text}940,20\n")), [30.0]);
+    // a reload goes on, also in steps of set points to the same peak, and a tip may snap off
+    let set_points = "0,0\n500,10\n700,20\n860,25\n1000,30\n950,15\n1000,30\n950,15\n1000,30\n";
+    let snap = "0,0\n40,1\n80,4\n120,9\n160,16\n155,9\n145,3\n140,0\n130,-3\n125,-5\n60,0\n";
+    for (sound, largest) in
+        [(format!("{text}940,20\n"), 30.0), (set_points.into(), 30.0), (snap.into(), 16.0)]
+    {
+        let head = if sound.starts_with("depth") { "" } else { "depth_nm,load_mN\n" };
+        assert_eq!(largest_forces(&format!("{head}{sound}")), [largest], "{sound}");
+    }
 }
 
 #[test]
@@ -111,7 +144,23 @@ fn blocks_of_one_test_are_one_test() {
         let table = indentation::read(&text, [None; 2], None).unwrap_or_else(|e| panic!("{size}: {e}"));
         assert_eq!(table.series.iter().map(|test| test.rows.len()).collect::<Vec<_>>(), [28], "{size}");
     }
-    // two tests are two
+    // two tests are two, also of set points
+    let mut points = "Sample,depth_nm,load_mN\n".to_string();
+    for (sample, stiff) in [("A", 1.0), ("B", 1.01)] {
+        for (depth, force) in [
+            (408.2, 10),
+            (577.4, 20),
+            (707.1, 30),
+            (816.5, 40),
+            (912.9, 50),
+            (1000.0, 60),
+            (787.2, 30),
+            (619.2, 10),
+        ] {
+            points += &format!("{sample},{},{force}\n", stiff * depth);
+        }
+    }
+    assert_eq!(largest_forces(&points).len(), 2);
     let one: String = test_of(6, 30.0).iter().map(|[depth, force]| format!("{depth},{force}\n")).collect();
     assert_eq!(largest_forces(&format!("depth_nm,load_mN\n{one}depth_nm,load_mN\n{one}")).len(), 2);
 }
@@ -180,4 +229,18 @@ fn numbers_of_rows_and_columns_before_points_are_asked_about() {
     std::fs::write(&file, rows).expect("can be written");
     let error = asperity_formats::surface::read(&file, &Request::default()).expect_err("refused");
     assert!(error.to_string().contains("z = \"5\""), "{error}");
+    // colours that are a grid by chance are none
+    let mut colours = String::from("# Units: um\n");
+    for k in 0..16 {
+        let [i, j] = [k % 4, k / 4];
+        colours += &format!(
+            "{} {} {} {} 7\n",
+            0.5 * i as f64,
+            0.5 * j as f64,
+            1.0 + 0.1 * ((3 * i + j) % 4) as f64,
+            100 + (k + j) % 4
+        );
+    }
+    std::fs::write(&file, colours).expect("can be written");
+    asperity_formats::surface::read(&file, &Request::default()).expect("a map of colours");
 }

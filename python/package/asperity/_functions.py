@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 import os
 import pathlib
 import tempfile
@@ -60,6 +61,17 @@ def _scene(scene: Scene | SceneTable | PathLike) -> Scene:
     )
 
 
+def _whole(name: str, value: object) -> int:
+    """A whole number that was given, from 0 on."""
+    try:
+        whole = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        whole = -1
+    if not 0 <= whole < 2**63:
+        raise _asperity.InputError(f"{name} is {value!r}: give a whole number from 0 on")
+    return whole
+
+
 def _level(accuracy: object) -> str | None:
     """An accuracy that was given, as the text that a scene holds."""
     if accuracy is None or isinstance(accuracy, str):
@@ -96,7 +108,7 @@ def crush(
     ``partial``.
     """
     try:
-        result = Crush(_asperity.crush(_scene(scene), _level(accuracy), threads, _folder(out), progress))
+        result = Crush(_asperity.crush(_scene(scene), _level(accuracy), _whole("threads", threads), _folder(out), progress))
     except BaseException as error:
         reached = getattr(error, "partial", None)
         if isinstance(reached, _asperity.Crush):
@@ -167,7 +179,7 @@ def _surface(
     if isinstance(surface, _asperity.Scene):
         raise _asperity.InputError("a Scene goes to crush: give heights, the path of a map, or a RoughScene")
     scene: dict[str, Any] = dict(tables)
-    table: dict[str, Any] = dict(scene.get("surface", {}))
+    table: dict[str, Any] = dict(scene.get("surface") or {})
     whole = surface if isinstance(surface, _asperity.RoughScene) else None
     if isinstance(surface, str | os.PathLike):
         path = os.fspath(surface)
@@ -235,7 +247,7 @@ def press(
         ``surface={"level": "none", "periodic": True}`` says what is done to them.
     :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
     """
-    result = Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), threads, _folder(out), progress))
+    result = Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _whole("threads", threads), _folder(out), progress))
     _told(result.warnings)
     return result
 
@@ -267,7 +279,7 @@ def joint(
         {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
     ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
-    result = Joint(_asperity.joint(taken, threads, _folder(out), progress))
+    result = Joint(_asperity.joint(taken, _whole("threads", threads), _folder(out), progress))
     _told(result.warnings)
     return result
 
@@ -297,7 +309,7 @@ def scales(
         {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
     ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
-    result = Scales(_asperity.scales(taken, threads, _folder(out), progress))
+    result = Scales(_asperity.scales(taken, _whole("threads", threads), _folder(out), progress))
     _told(result.warnings)
     return result
 
@@ -352,7 +364,7 @@ def extract(
     with tempfile.TemporaryDirectory() as beside:
         folder = _folder(out) or beside
         taken = _surface(heights, pixel_size_um, scene)
-        found = _asperity.extract(*taken, wanted, crush, threads, folder, progress)
+        found = _asperity.extract(*taken, wanted, crush, _whole("threads", threads), folder, progress)
         return Extraction(*found, folder)
 
 
@@ -371,7 +383,7 @@ def calibrate(
     :param sweep: keys of a sweep, ``slopes_deg=[2, 4]``, ``yield_stress=["200 MPa"]``; what is absent is the paper's.
     :raises InputError: values that make no sense.
     """
-    return Calibration(*_asperity.calibrate(dict(sweep), threads, _folder(out), progress))
+    return Calibration(*_asperity.calibrate(dict(sweep), _whole("threads", threads), _folder(out), progress))
 
 
 def trade(
@@ -390,7 +402,7 @@ def trade(
     :param out: folder for the files of ``asperity trade``.
     :param progress: called with the share that is done and a text.
     """
-    return Trade(*_asperity.trade(_scene(scene), combinations, threads, _folder(out), progress))
+    return Trade(*_asperity.trade(_scene(scene), combinations, _whole("threads", threads), _folder(out), progress))
 
 
 def _with_files(curves: Any, folder: str) -> Any:
@@ -456,7 +468,7 @@ def identify(
         if isinstance(tables, dict) and "curve" in tables:
             tables["curve"] = _with_files(tables["curve"], folder)
         changes = None if set is None else dict(set)
-        return Identification(*_asperity.identify(tables, changes, threads, _folder(out), progress))
+        return Identification(*_asperity.identify(tables, changes, _whole("threads", threads), _folder(out), progress))
 
 
 def _any_scene(scene: Any) -> Any:
@@ -508,8 +520,7 @@ def study(
     """
     given: Sequence[Any] = (sample,) if isinstance(sample, str) else sample
     table: dict[str, Any] = {"kind": given[0], "seed": seed, "points": given[1] if len(given) > 1 else None}
-    if not isinstance(seed, int) or not 0 <= seed < 2**64:
-        raise _asperity.InputError(f"seed is {seed!r}: give a whole number from 0 on")
+    seed = _whole("seed", seed)
     surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
     if heights is not None and isinstance(scene, Mapping):
         bare: Any = {"surface": {}, **scene}
@@ -529,7 +540,7 @@ def study(
         curves,
         show,
         shard,
-        threads,
+        _whole("threads", threads),
         _folder(out),
         progress,
     )

@@ -280,17 +280,18 @@ impl Sources {
             None => error,
         }
     }
-}
 
-impl Sources {
     /// The way out where the value before `place` ends at a decimal comma.
     fn decimal_comma(&self, place: usize) -> Option<String> {
         let (before, after) = (self.text.get(..place)?, self.text.get(place..)?);
-        let whole = before.rsplit(['=', '\n', ' ']).next()?;
+        let whole = before.rsplit(|c: char| c.is_whitespace() || "={".contains(c)).next()?;
         let decimals: String = after.strip_prefix(',')?.chars().take_while(char::is_ascii_digit).collect();
-        let is_number = |digits: &str| !digits.is_empty() && digits.parse::<f64>().is_ok();
-        (is_number(whole) && is_number(&decimals))
-            .then(|| format!("write the decimal point: {whole}.{decimals}"))
+        let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        let bare = whole.trim_start_matches(['-', '+']);
+        (are_digits(bare) && are_digits(&decimals)).then(|| match decimals.len() {
+            3 => format!("write numbers without a comma: {whole}.{decimals} or {whole}{decimals}"),
+            _ => format!("write the decimal point: {whole}.{decimals}"),
+        })
     }
 }
 

@@ -115,9 +115,13 @@ fn yields(closure: Closure, one: &SpaceContact, scene: &Scene) -> Option<String>
     let limit = material.hardness.map(|h| h.0).or_else(|| Some(3.0 * material.yield_stress?.0))?;
     let mean = one.contact.pressure / one.contact.area.corrected;
     let is_alone = closure == Closure::HalfSpace && scene.closure.closures().len() == 1;
-    (is_alone && mean > limit).then(|| {
+    // three yield stresses are what the metal supports before it hardens
+    let hardens = material.hardness.is_none() && material.hardening_exponent.is_some_and(|n| n > 0.0);
+    let most = if hardens { 2.0 * limit } else { limit };
+    let named = if material.hardness.is_some() { "the hardness of this metal" } else { "3 yield_stress" };
+    (is_alone && mean > most).then(|| {
         format!(
-            "half-space: its mean pressure, {} MPa, is {} times what this metal supports ({} MPa): there it yields, and touches on a larger area; \
+            "half-space: its mean pressure, {} MPa, is {} times {named} ({} MPa): there it yields, and touches on a larger area; \
              closure \"half-space-plastic\" limits the pressure",
             with_digits(mean / MEGAPASCAL, 3),
             with_digits(mean / limit, 2),

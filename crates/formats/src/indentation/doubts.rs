@@ -136,8 +136,15 @@ fn refuse_last_row(test: &Series<2>) -> Result<(), TextError> {
     let range = [0, 1].map(|k| most(k) - earlier.iter().map(|row| row[k]).fold(f64::INFINITY, f64::min));
     let step = [0, 1].map(|k| (last[k] - previous[k]) / range[k]);
     let has_most = [0, 1].map(|k| last[k] == most(k));
-    let is_of_maxima = has_most == [true; 2] && step[1] > SHARE_OF_A_CONTRADICTION;
-    let is_contradiction = step[0] < -SHARE_OF_A_CONTRADICTION && step[1] > SHARE_OF_A_CONTRADICTION;
+    // a reload in one step comes from a load, or is none of the first
+    let is_free = previous[1] < UNLOADED_SHARE * most(1);
+    let rises = |two: &[[f64; 2]]| two[1][1] - two[0][1] > 0.5 * step[1] * range[1];
+    let is_first = !earlier.windows(2).any(rises);
+    let is_of_maxima = has_most == [true; 2] && is_free && is_first && step[1] > SHARE_OF_A_CONTRADICTION;
+    // a tip that snaps off ends without a load
+    let has_load = last[1] > SHARE_OF_A_CONTRADICTION * most(1);
+    let is_contradiction =
+        step[0] < -SHARE_OF_A_CONTRADICTION && step[1] > SHARE_OF_A_CONTRADICTION && has_load;
     if before.len() < MOST_LONE || !is_of_maxima && !is_contradiction {
         return Ok(());
     }

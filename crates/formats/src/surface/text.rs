@@ -338,8 +338,11 @@ fn refuse_numbered_points(grid: &Grid<'_>, request: &Request<'_>) -> Result<(), 
         5.. => grid.values.chunks_exact(grid.columns).map(|row| [row[2], row[3], row[4]]).collect(),
         _ => return Ok(()),
     };
-    let is_grid = onto_grid(&others).is_ok_and(|placed| placed.heights.len() == others.len());
-    if !is_grid || request.columns.iter().any(Option::is_some) {
+    let is_full =
+        |heights: &[f64]| heights.len() == others.len() && heights.iter().all(|height| !height.is_nan());
+    let is_grid = onto_grid(&others).is_ok_and(|placed| is_full(&placed.heights));
+    let is_level = others.iter().all(|point| point[2] == others[0][2]);
+    if !is_grid || is_level || request.columns.iter().any(Option::is_some) {
         return Ok(());
     }
     let problem = "columns 1 and 2 are places of a grid, and so are columns 3 and 4: say which are x, y and z, like columns = { x = \"3\", y = \"4\", z = \"5\" }";
@@ -403,10 +406,11 @@ fn points(
             }
         },
         // "x, y (mm)" names the unit of both
-        [Some(unit), None] | [None, Some(unit)] => {
+        [Some(unit), None] | [None, Some(unit)] if !is_count(scales, placed.step) => {
             notes.push("one unit for x and y".into());
             Spacing::Metres(placed.step.map(|step| step * unit))
         }
+        _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
     };
     if picks[2].scale.is_none() {
         said.refuse_factor(&placed.heights, request)?;
@@ -422,6 +426,12 @@ fn points(
         height_unit,
         notes,
     })
+}
+
+/// True where the one of x and y without a unit counts lines, and the other does not.
+fn is_count(scales: [Option<f64>; 2], step: [f64; 2]) -> bool {
+    let [bare, other] = if scales[0].is_none() { [0, 1] } else { [1, 0] };
+    step[bare] == 1.0 && step[other] != 1.0
 }
 
 /// True where the first two columns are the places of a full grid.

@@ -2,7 +2,7 @@
 
 use super::declared_unit::DeclaredUnit;
 use super::dialect::{Decimal, Dialect, Separator, is_row};
-use super::heading::{Heading, Quantity, folded, unbracketed};
+use super::heading::{Heading, Quantity, folded, is_unit, unbracketed};
 use super::{TextError, shortened};
 use crate::dimension::Dimension;
 use crate::units::conversion;
@@ -256,7 +256,10 @@ impl<'t> Header<'t> {
             }),
             have_units: std::array::from_fn(|i| heads[found[i][0].column].unit.is_some()),
             tests: (0..heads.len())
-                .filter(|i| numbers_tests(&heads[*i].name) && heads[*i].unit.is_none())
+                .filter(|i| {
+                    let has_unit = heads[*i].unit.as_deref().is_some_and(is_unit);
+                    numbers_tests(&heads[*i].name) && !has_unit
+                })
                 .collect(),
             said: said.join(", "),
         })

@@ -13,7 +13,7 @@ mod repeats;
 mod segments;
 mod table;
 
-use numbered::{label_of, one_label};
+use numbered::{is_next, label_of, one_label};
 use repeats::leave_out_repeats;
 use segments::{is_segment, named_segment};
 pub use table::{Series, SeriesTable};
@@ -21,7 +21,9 @@ pub use table::{Series, SeriesTable};
 /// Most rows of numbers below the names of what sums up a table.
 const ROWS_OF_A_SUMMARY: usize = 2;
 /// First words of rows that sum up a table.
-const SUMMARIES: [&str; 14] = [
+const SUMMARIES: [&str; 16] = [
+    "sd",
+    "stdev",
     "average",
     "mean",
     "std",
@@ -49,6 +51,8 @@ struct Block<'t, const N: usize> {
     has_plain_rows: bool,
     /// True where the first cell of one of them is a number: its column is none of notes.
     has_first_numbers: bool,
+    /// The last cell in each column that numbers tests.
+    numbers: HashMap<usize, &'t str>,
     end: Option<End>,
 }
 
@@ -251,7 +255,8 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let cells = header_cells(&self.dialect, text, Some(columns.width));
         let is_word = |cell: &str| !cell.is_empty() && self.dialect.measured(cell).is_none();
         let is_words = !is_row(text.trim()) && self.dialect.cells(text).next().is_some_and(is_word);
-        let is_summary = cells.first().is_some_and(|cell| SUMMARIES.contains(&folded(cell).as_str()));
+        let is_summary =
+            cells.first().is_some_and(|cell| SUMMARIES.contains(&folded(cell).replace('.', "").as_str()));
         // a segment begins in the row of its first reading
         let is_number = |pick: &Pick| {
             cells.get(pick.column).is_some_and(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()))
@@ -259,11 +264,19 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         let begins_segment =
             || cells.first().is_some_and(|cell| is_segment(cell)) && columns.picks[0].iter().all(is_number);
         // nor does a note end the table, in a column that has a name and no numbers
+        let goes_on = || {
+            let number =
+                |pick: &Pick| Some(self.dialect.number(cells.get(pick.column)?)? * pick.scale.unwrap_or(1.0));
+            let found = columns.picks[0].each_ref().map(|pick| number(pick).unwrap_or(f64::NAN));
+            self.series.last().is_none_or(|test| is_next(&test.rows, &found))
+        };
         let has_note = || {
             let named = header_cells(&self.dialect, block.header.text, Some(columns.width));
-            !block.has_first_numbers
+            block.end.is_none()
+                && !block.has_first_numbers
                 && named.first().is_some_and(|name| !name.is_empty())
                 && columns.picks[0].iter().all(|pick| pick.column > 0 && is_number(pick))
+                && goes_on()
         };
         if is_words && (is_summary || block.has_plain_rows && !begins_segment() && !has_note()) {
             let names = cells.iter().filter(|cell| is_word(cell)).count();
@@ -295,9 +308,10 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
 
     fn begin(&mut self, header: Header<'t>) {
         let first = self.series.len();
-        let (has_plain_rows, has_first_numbers) = (false, false);
-        self.block =
-            Some(Block { header, columns: None, first, has_plain_rows, has_first_numbers, end: None });
+        let (has_plain_rows, has_first_numbers, numbers) = (false, false, HashMap::new());
+        let block =
+            Block { header, columns: None, first, has_plain_rows, has_first_numbers, numbers, end: None };
+        self.block = Some(block);
     }
 
     /// The columns of `header` above its first row of numbers, the line `text`; `None` where `row` has none.
@@ -324,7 +338,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
     fn row(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
         let Some(mut block) = self.block.take() else { return Ok(()) };
         self.goes_on = false;
-        let row: Vec<&str> = self.dialect.cells(text).collect();
+        let row: Vec<&'t str> = self.dialect.cells(text).collect();
         let columns = match block.columns.take() {
             None => self.columns_above(&block.header, (line, text), &row)?,
             known => known,
@@ -350,8 +364,17 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         }
         for (k, picks) in columns.picks.iter().enumerate() {
             let Some(reading) = self.reading(line, &row, picks)? else { continue };
-            let label = label_of(columns.tests.iter().filter_map(|t| row.get(*t).copied()))
-                .unwrap_or_else(|| (block.first + k + 1).to_string());
+            // of tests side by side each has its columns
+            let numbers = columns.tests.iter().filter(|_| columns.picks.len() == 1);
+            let label = label_of(numbers.copied().map(|t| {
+                let cell = row.get(t).copied().unwrap_or("");
+                // a merged cell stands in its first row
+                if !cell.is_empty() {
+                    block.numbers.insert(t, cell);
+                }
+                block.numbers.get(&t).copied().unwrap_or("")
+            }))
+            .unwrap_or_else(|| (block.first + k + 1).to_string());
             let end = self.series.len();
             let place = *self.places.entry((block.first, label.clone())).or_insert(end);
             if place == end {

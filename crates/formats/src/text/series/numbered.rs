@@ -6,6 +6,24 @@ use std::collections::HashMap;
 /// Between the numbers of a test in several columns, until all rows are there.
 const BETWEEN: &str = "\u{1f}";
 
+/// Readings of a test below which a number beside that of a specimen counts something else.
+const FEWEST_READINGS: usize = 6;
+
+/// Steps of the readings before it within which a row with a note is the next of them.
+const STEPS_TO_THE_NEXT: f64 = 2.0;
+
+/// True of a row that goes on where `rows` end, by the largest of their last steps; also where these are too
+/// few to tell.
+pub(super) fn is_next<const N: usize>(rows: &[[f64; N]], next: &[f64; N]) -> bool {
+    let last = &rows[rows.len().saturating_sub(4)..];
+    let [.., end] = last else { return true };
+    let is_near = |k: usize| {
+        let steps = last.windows(2).map(|two| (two[1][k] - two[0][k]).abs());
+        (next[k] - end[k]).abs() <= STEPS_TO_THE_NEXT * steps.fold(0.0, f64::max)
+    };
+    last.len() < 3 || (0..N).all(is_near)
+}
+
 /// The label of a row by the cells that number its test; `None` where there are none.
 pub(super) fn label_of<'c>(cells: impl Iterator<Item = &'c str>) -> Option<String> {
     let cells: Vec<&str> = cells.collect();
@@ -21,13 +39,15 @@ pub(super) fn one_label<const N: usize>(tests: &mut Vec<Series<N>>) {
     }
     rows.sort_by_key(|(line, ..)| *line);
     let numbers: Vec<Vec<&str>> = tests.iter().map(|test| test.label.split(BETWEEN).collect()).collect();
+    let columns = numbers.iter().map(Vec::len).max().unwrap_or(0);
+    // beside another column the parts of a test must be long enough to be tests
+    let least = if columns > 1 { FEWEST_READINGS } else { 2 };
     let counts_rows = |column: &usize| {
         let number = |test: usize| numbers[test].get(*column);
         let is_change =
             |two: &&[(usize, usize, [f64; N])]| two[0].0 != two[1].0 && number(two[0].1) != number(two[1].1);
-        tests.len() > 2 && 2 * rows.windows(2).filter(is_change).count() > rows.len()
+        tests.len() > 2 && least * rows.windows(2).filter(is_change).count() > rows.len()
     };
-    let columns = numbers.iter().map(Vec::len).max().unwrap_or(0);
     let telling: Vec<usize> = (0..columns).filter(|column| !counts_rows(column)).collect();
     let label = |test: usize| {
         let told: Vec<&str> = telling.iter().filter_map(|c| numbers[test].get(*c).copied()).collect();
