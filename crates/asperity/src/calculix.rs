@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::mesh::problem;
 
-pub use asperity_decks::{Deck, Reader};
+pub use asperity_decks::{Deck, Reader, is_alike};
 
 /// The deck of `scene`, called `name` in its heading, for `reader`.
 ///

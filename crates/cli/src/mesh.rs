@@ -2,7 +2,7 @@
 
 use crate::flags::SceneFlags;
 use crate::terminal;
-use asperity::calculix::{Reader, deck};
+use asperity::calculix::{Reader, deck, is_alike};
 use asperity::error::{Error, InputError};
 use asperity::input::scene::Scene;
 use asperity::mesh::{Mesh, Quality, write_msh, write_vtu};
@@ -59,8 +59,7 @@ fn format_of(path: &Path) -> Result<MeshFormat, InputError> {
 /// name.
 fn target(args: &MeshCommand) -> Result<(PathBuf, MeshFormat), InputError> {
     match (&args.output, args.format) {
-        (Some(path), Some(format)) => Ok((path.clone(), format)),
-        (Some(path), None) => Ok((path.clone(), format_of(path)?)),
+        (Some(path), format) => Ok((path.clone(), format.map_or_else(|| format_of(path), Ok)?)),
         (None, Some(format)) => {
             let name = args.scene.file_stem().unwrap_or("scene".as_ref());
             let value = format.to_possible_value();
@@ -84,35 +83,18 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     let scene = args.scene_flags.read(&args.scene)?;
     let mesh = asperity::mesh::mesh(&scene)?;
     let (bytes, warnings) = content(&scene, &mesh, format)?;
-    if args.output.is_none() && !args.force {
-        refuse_other(&path, &bytes)?;
+    let is_named = args.output.is_some() || args.force;
+    if !is_named && std::fs::read(&path).is_ok_and(|old| !is_alike(&old, &bytes)) {
+        let message = format!("{} is there and no earlier file of this command", path.display());
+        return Err(InputError::new(message).help("name another with -o, or give --force").into());
     }
     write_whole(&path, &bytes)
         .map_err(|e| InputError::new(e.to_string()).help("give another file with -o"))?;
     if !args.quiet {
         warnings.iter().for_each(terminal::warn);
-        terminal::say(&overview(&mesh))?;
-        terminal::say(&format!("written    {}", path.display()))?;
+        terminal::say(&format!("{}\nwritten    {}", overview(&mesh), path.display()))?;
     }
     Ok(())
-}
-
-/// Refuses to write `new` over a file that nobody named and that does not begin as it does.
-fn refuse_other(path: &Path, new: &[u8]) -> Result<(), InputError> {
-    let first_line = |bytes: &[u8]| bytes.split(|b| *b == b'\n').next().map(<[u8]>::to_vec);
-    // both programs read `*HEADING`, one alone rigid bodies
-    let has = |bytes: &[u8], word: &str| String::from_utf8_lossy(bytes).contains(word);
-    let is_alike = |old: &[u8]| {
-        let same = |word: &str| has(old, word) == has(new, word);
-        first_line(old) == first_line(new) && same("written by asperity") && same("*RIGID BODY")
-    };
-    match std::fs::read(path) {
-        Ok(old) if !is_alike(&old) => {
-            Err(InputError::new(format!("{} is there and no earlier file of this command", path.display()))
-                .help("name another with -o, or write over it with --force"))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The content of the file: the mesh for ParaView in µm, for Gmsh in m, or the whole scene for CalculiX; and
@@ -121,8 +103,7 @@ fn content(scene: &Scene, mesh: &Mesh, format: MeshFormat) -> Result<(Vec<u8>, V
     fn failed(e: impl Display) -> Error {
         Error::Unfinished(format!("the mesh cannot be written: {e}"))
     }
-    let mut out = Vec::new();
-    let mut warnings = Vec::new();
+    let (mut out, mut warnings) = (Vec::new(), Vec::new());
     let mut write_deck = |out: &mut Vec<u8>, reader| -> Result<(), Error> {
         let deck = deck(&scene.name(), scene, reader)?;
         warnings = deck.warnings();

@@ -34,19 +34,17 @@ pub struct Scales {
 /// Input that is wrong (nothing is written), or results that cannot be written.
 pub fn scales(args: &Scales) -> Result<(), Error> {
     // what is not said is told once
-    let scenes = args
-        .surfaces
-        .iter()
-        .enumerate()
-        .map(|(i, path)| scene_of(path, args.like.as_deref(), &args.overrides, args.run.quiet || i > 0));
+    let scenes = args.surfaces.iter().enumerate().map(|(i, path)| {
+        let quiet = args.run.quiet || i > 0;
+        scene_of(path, args.like.as_deref(), &args.overrides, quiet)
+    });
     let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     let target = args.run.target(&scenes[0].name());
     let folder = Folder::create(&target, "scales", args.run.force)?;
     interrupt::catch();
     let progress = Line::new(args.run.quiet);
     let found = press_scales(&scenes, &mut |reached| {
-        let next =
-            || reached.news.map_or(String::new(), |cutoff| format!("waves from {:.4} um", cutoff * 1e6));
+        let next = || reached.news.map_or(String::new(), |l| format!("waves from {:.4} um", l * 1e6));
         progress.show(reached.share, next);
         !interrupt::requested()
     });

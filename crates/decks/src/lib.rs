@@ -3,8 +3,10 @@
 mod outline;
 
 mod abaqus;
+mod alike;
 mod deck;
 
 mod write;
 
+pub use alike::is_alike;
 pub use deck::{Deck, Reader};
