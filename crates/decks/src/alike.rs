@@ -1,7 +1,7 @@
 //! Files of one kind: an earlier deck or mesh, and the one that replaces it.
 
-/// True of a file `old` in whose place `new` may be written: it begins as that does, and a deck is one for the
-/// same program.
+/// True of a file `old` in whose place `new` may be written: it begins as that does, and a deck is one for
+/// the same program.
 ///
 /// ```
 /// let [deck, other] = ["*HEADING\nball, written by asperity 0.1.0", "*HEADING\nmine"].map(str::as_bytes);

@@ -108,7 +108,11 @@ def crush(
     ``partial``.
     """
     try:
-        result = Crush(_asperity.crush(_scene(scene), _level(accuracy), _whole("threads", threads), _folder(out), progress))
+        result = Crush(
+            _asperity.crush(
+                _scene(scene), _level(accuracy), _whole("threads", threads), _folder(out), progress
+            )
+        )
     except BaseException as error:
         reached = getattr(error, "partial", None)
         if isinstance(reached, _asperity.Crush):
@@ -247,7 +251,11 @@ def press(
         ``surface={"level": "none", "periodic": True}`` says what is done to them.
     :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
     """
-    result = Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _whole("threads", threads), _folder(out), progress))
+    result = Rough(
+        _asperity.press(
+            *_surface(heights, pixel_size_um, scene), _whole("threads", threads), _folder(out), progress
+        )
+    )
     _told(result.warnings)
     return result
 
@@ -402,7 +410,9 @@ def trade(
     :param out: folder for the files of ``asperity trade``.
     :param progress: called with the share that is done and a text.
     """
-    return Trade(*_asperity.trade(_scene(scene), combinations, _whole("threads", threads), _folder(out), progress))
+    return Trade(
+        *_asperity.trade(_scene(scene), combinations, _whole("threads", threads), _folder(out), progress)
+    )
 
 
 def _with_files(curves: Any, folder: str) -> Any:
@@ -468,7 +478,9 @@ def identify(
         if isinstance(tables, dict) and "curve" in tables:
             tables["curve"] = _with_files(tables["curve"], folder)
         changes = None if set is None else dict(set)
-        return Identification(*_asperity.identify(tables, changes, _whole("threads", threads), _folder(out), progress))
+        return Identification(
+            *_asperity.identify(tables, changes, _whole("threads", threads), _folder(out), progress)
+        )
 
 
 def _any_scene(scene: Any) -> Any:
