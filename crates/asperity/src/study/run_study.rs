@@ -182,12 +182,12 @@ impl Study {
             let Some(name) = self.definition.show.as_ref().filter(|_| self.runs.iter().any(Run::ok)) else {
                 return Ok(None);
             };
-            let known = columns(&self.runs).into_iter().collect::<Vec<_>>().join(", ");
+            let known: Vec<&str> = columns(&self.runs).into_iter().collect();
             let error = InputError::new(format!("`{name}` is no column of the results"));
-            let near = nearest(name, &columns(&self.runs).into_iter().collect::<Vec<_>>());
-            let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            let near =
+                nearest(name, &known).map_or_else(String::new, |near| format!("did you mean `{near}`? "));
             let way = "the runs are kept: the same command with another --show draws at once";
-            return Err(error.help(format!("{near}{way}; there are {known}")).into());
+            return Err(error.help(format!("{near}{way}; there are {}", known.join(", "))).into());
         };
         picture::draw(&self.definition.vary, &self.runs, column).map(Some).map_err(Error::Unfinished)
     }

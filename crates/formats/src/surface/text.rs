@@ -334,15 +334,15 @@ fn numbered_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Columns<3>, 
 
 /// Numbers of the row and the column of each point before its places: nothing tells which are x and y.
 fn refuse_numbered_points(grid: &Grid<'_>, request: &Request<'_>) -> Result<(), ReadError> {
-    let others: Vec<[f64; 3]> = match grid.columns {
-        5.. => grid.values.chunks_exact(grid.columns).map(|row| [row[2], row[3], row[4]]).collect(),
-        _ => return Ok(()),
-    };
+    if grid.columns < 5 || request.columns.iter().any(Option::is_some) {
+        return Ok(());
+    }
+    let others: Vec<[f64; 3]> =
+        grid.values.chunks_exact(grid.columns).map(|row| [row[2], row[3], row[4]]).collect();
+    let is_level = others.iter().all(|point| point[2] == others[0][2]);
     let is_full =
         |heights: &[f64]| heights.len() == others.len() && heights.iter().all(|height| !height.is_nan());
-    let is_grid = onto_grid(&others).is_ok_and(|placed| is_full(&placed.heights));
-    let is_level = others.iter().all(|point| point[2] == others[0][2]);
-    if !is_grid || is_level || request.columns.iter().any(Option::is_some) {
+    if is_level || !onto_grid(&others).is_ok_and(|placed| is_full(&placed.heights)) {
         return Ok(());
     }
     let problem = "columns 1 and 2 are places of a grid, and so are columns 3 and 4: say which are x, y and z, like columns = { x = \"3\", y = \"4\", z = \"5\" }";
