@@ -4,13 +4,12 @@
 //! The legend stands below the axes, where no data are. A chart is so narrow that its letters stay legible
 //! on a phone, where it is shrunk to the width of the page.
 
+use super::axis::Axis;
 use super::encode::FAMILY;
 use super::palette::{self, Colour};
-use super::scale;
 use asperity_roughness::Closure;
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
@@ -69,7 +68,7 @@ impl Series {
     }
 }
 
-/// A chart of lines over common axes: they start at 0 or below, or are logarithmic.
+/// A chart of lines over common axes: each starts at 0 or below, or is logarithmic.
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// Name of the horizontal axis with its unit.
@@ -81,8 +80,9 @@ pub struct Chart {
     /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if
     /// empty.
     pub title: String,
-    /// True where both axes are logarithmic; points without a logarithm are left out.
-    pub logarithmic: bool,
+    /// True where the horizontal and where the vertical axis is logarithmic; points without a logarithm are
+    /// left out.
+    pub logarithmic: [bool; 2],
 }
 
 impl Chart {
@@ -94,7 +94,7 @@ impl Chart {
     ) -> Chart {
         let series = series.into_iter().collect();
         let (x_label, y_label) = (x_label.into(), y_label.into());
-        Chart { x_label, y_label, series, title: String::new(), logarithmic: false }
+        Chart { x_label, y_label, series, title: String::new(), logarithmic: [false; 2] }
     }
 
     /// True where no line has a point to show.
@@ -126,82 +126,6 @@ pub const fn rgb([r, g, b]: Colour) -> RGBColor {
 /// Letters of `size` pixels: the library writes the 1.24th part of a size into a document.
 pub fn font(size: u32) -> TextStyle<'static> {
     (FAMILY, size * FINE_PIXELS * 124 / 100).into_font().color(&INK)
-}
-
-/// Most steps of an axis: the numbers of more would touch.
-const STEPS: f64 = 6.0;
-/// Powers of ten that are written out on an axis of logarithms.
-const WRITTEN_POWERS: std::ops::RangeInclusive<f64> = -3.0..=4.0;
-/// Share of a step by which a value may pass the end of an axis: what no eye sees adds no step.
-const CLOSE: f64 = 1e-3;
-
-/// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
-#[derive(Clone)]
-pub struct Axis {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-    step: f64,
-    /// True where it holds logarithms; the powers of ten are written.
-    logarithmic: bool,
-}
-
-impl Axis {
-    /// Covers `values` and 0 with about six steps.
-    pub fn covering(values: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = values.fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
-        let span = if high > low { high - low } else { 1.0 };
-        let step = scale::round_step(span, STEPS);
-        let low = if low < 0.0 { (low / step + CLOSE).floor() * step } else { 0.0 };
-        let high = ((high / step - CLOSE).ceil() * step).max(low + step);
-        Axis { low, high, step, logarithmic: false }
-    }
-
-    /// From one of `ends` to the other, with about six steps.
-    pub fn spanning([low, high]: [f64; 2]) -> Self {
-        let high = if high > low { high } else { low + 1.0 };
-        Axis { low, high, step: scale::round_step(high - low, STEPS), logarithmic: false }
-    }
-
-    /// Covers logarithms by whole decades, at least one.
-    pub fn decades(values: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        let (low, high) = if low > high { (0.0, 1.0) } else { (low.floor(), high.ceil()) };
-        Axis { low, high: high.max(low + 1.0), step: 1.0, logarithmic: true }
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = plotters::coord::ranged1d::NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value - self.low) / (self.high - self.low);
-        limit.0 + (f64::from(limit.1 - limit.0) * share).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        scale::multiples(self.low, self.high, self.step)
-    }
-
-    fn range(&self) -> std::ops::Range<f64> {
-        self.low..self.high
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, value: &f64) -> String {
-        if !self.logarithmic {
-            return scale::label(*value, self.step);
-        }
-        let power = value.round();
-        if !WRITTEN_POWERS.contains(&power) {
-            return format!("1e{power}");
-        }
-        let decimals = (-power).max(0.0) as usize;
-        format!("{:.decimals$}", 10f64.powf(power))
-    }
 }
 
 /// An error of the drawing library.
@@ -458,7 +382,8 @@ pub fn axes<'a>(
 /// Those of the drawing library.
 pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
     let placed = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
-        let places = points.iter().map(|p| if chart.logarithmic { p.map(f64::log10) } else { *p });
+        let place = |p: &[f64; 2], k: usize| if chart.logarithmic[k] { p[k].log10() } else { p[k] };
+        let places = points.iter().map(|p| [place(p, 0), place(p, 1)]);
         places.filter(|p| p.iter().all(|v| v.is_finite())).map(|[x, y]| (x, y)).collect()
     };
     let of_all = |of: fn(&Series) -> &Vec<[f64; 2]>| -> Vec<Vec<(f64, f64)>> {
@@ -466,11 +391,13 @@ pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
     };
     let (finite, bands) = (of_all(|series| &series.points), of_all(|series| &series.band));
     let edges = || finite.iter().chain(&bands).flatten();
-    let [x, y] = if chart.logarithmic {
-        [Axis::decades(edges().map(|p| p.0)), Axis::decades(edges().map(|p| p.1))]
+    let x = if chart.logarithmic[0] {
+        Axis::logarithmic(edges().map(|p| p.0))
     } else {
-        [Axis::covering(finite.iter().flatten().map(|p| p.0)), Axis::covering(edges().map(|p| p.1))]
+        Axis::covering(finite.iter().flatten().map(|p| p.0))
     };
+    let heights = edges().map(|p| p.1);
+    let y = if chart.logarithmic[1] { Axis::logarithmic(heights) } else { Axis::covering(heights) };
     let range = [x.low, y.high, x.high, y.low];
     let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     let (across, down) = area.plotting_area().get_pixel_range();

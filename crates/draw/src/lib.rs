@@ -8,6 +8,7 @@ pub mod scale;
 pub mod encode;
 pub mod frame;
 
+pub mod axis;
 pub mod chart;
 pub mod field_plot;
 pub mod rough_map;

@@ -1,4 +1,4 @@
-//! Charts of a surface at all its scales, over the logarithm of the cut-off.
+//! Charts of a surface at all its scales, over the cut-off.
 
 use crate::chart::{Chart, Dash, Series};
 use crate::palette;
@@ -12,21 +12,21 @@ type Column = (fn(&Numbers) -> Option<f64>, f64);
 pub fn scale_charts(found: &Scales) -> Vec<(&'static str, Chart)> {
     let spectrum = found.spectrum.iter().filter_map(|point| {
         let density = point.areal.filter(|density| *density > 0.0)?;
-        Some([(point.frequency * 1e-6).log10(), (density * 1e24).log10()])
+        Some([point.frequency * 1e-6, density * 1e24])
     });
     let spectrum = Series::line("mean over all directions", spectrum.collect());
-    let slopes = found.steps.iter().map(|step| [octave(step.cutoff), step.slopes.rms]);
+    let slopes = found.steps.iter().map(|step| [step.cutoff * 1e6, step.slopes.rms]);
     let slopes = Series::line("rms slope", slopes.collect()).marked();
     let charts = [
         (
             "spectrum.svg",
-            Chart::new("log₁₀ of the frequency (1/µm)", "log₁₀ of the density (µm⁴)", [spectrum])
-                .titled("Power spectrum of the whole map"),
+            Chart {
+                logarithmic: [true; 2],
+                ..Chart::new("frequency (1/µm)", "density (µm⁴)", [spectrum])
+                    .titled("Power spectrum of the whole map")
+            },
         ),
-        (
-            "slope.svg",
-            Chart::new(CUTOFF, "rms slope", [slopes]).titled("Rms slope of the waves above the cut-off"),
-        ),
+        ("slope.svg", over_cutoff("rms slope", "Rms slope of the waves above the cut-off", [slopes])),
         (
             "area.svg",
             by_scale(
@@ -55,10 +55,8 @@ pub fn scale_charts(found: &Scales) -> Vec<(&'static str, Chart)> {
     charts.into_iter().filter(|(_, chart)| !chart.is_empty()).collect()
 }
 
-const CUTOFF: &str = "log₂ of the cut-off (µm)";
-
-fn octave(cutoff: f64) -> f64 {
-    (cutoff * 1e6).log2()
+fn over_cutoff(label: &str, title: &str, lines: impl IntoIterator<Item = Series>) -> Chart {
+    Chart { logarithmic: [true, false], ..Chart::new("cut-off (µm)", label, lines).titled(title) }
 }
 
 /// Colour and dash of a contact: a closure has its colour of every chart, a theory that of the half-space
@@ -87,12 +85,11 @@ fn by_scale(found: &Scales, label: &str, title: &str, (of, unit): Column) -> Cha
         }
     }
     let series = names.into_iter().filter_map(|by| {
-        let points =
-            found.contacts(by).filter_map(|(step, one)| Some([octave(step.cutoff), of(one)? / unit]));
+        let points = found.contacts(by).filter_map(|(step, one)| Some([step.cutoff * 1e6, of(one)? / unit]));
         let points: Vec<[f64; 2]> = points.collect();
         let (colour, dash) = look(by);
         let line = Series { colour: Some(colour), dash: Some(dash), ..Series::line(by.name(), points) };
         (!line.points.is_empty()).then(|| line.marked())
     });
-    Chart::new(CUTOFF, label, series).titled(title)
+    over_cutoff(label, title, series)
 }

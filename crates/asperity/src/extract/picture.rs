@@ -2,7 +2,8 @@
 //! slope.
 
 use super::rows::ComparedRow;
-use crate::draw::chart::{Axis, FINE_PIXELS, Failure, INK, Paper, Sample, axes, framed, rgb, titled};
+use crate::draw::axis::Axis;
+use crate::draw::chart::{FINE_PIXELS, Failure, INK, Paper, Sample, axes, framed, rgb, titled};
 use crate::draw::palette;
 use asperity_roughness::Closure;
 use plotters::prelude::*;

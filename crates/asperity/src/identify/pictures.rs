@@ -1,9 +1,8 @@
 //! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of
 //! the objective.
 
-use crate::draw::chart::{
-    Axis, Chart, Dash, FINE_PIXELS, INK, Sample, Series, axes, draw, framed, rgb, titled,
-};
+use crate::draw::axis::Axis;
+use crate::draw::chart::{Chart, Dash, FINE_PIXELS, INK, Sample, Series, axes, draw, framed, rgb, titled};
 use crate::draw::palette::{self, Colour, LINES, VIRIDIS, interpolated};
 use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::levenberg_marquardt::{Minimum, chi2};

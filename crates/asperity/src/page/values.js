@@ -4,10 +4,10 @@ for (const figure of document.querySelectorAll("figure.chart")) {
   const svg = figure.querySelector("svg"), told = figure.querySelector("output");
   const { x, y, frame: [left, top, right, bottom], range: [x0, y1, x1, y0], logarithmic, lines } =
     JSON.parse(figure.querySelector("script").textContent);
-  const place = logarithmic ? Math.log10 : u => u;
+  const [across, up] = logarithmic.map(yes => yes ? Math.log10 : u => u);
   const points = lines.flatMap(({ name, points }) => points.map(([u, v]) => ({
     text: `${name}: ${x} ${+u.toPrecision(5)}, ${y} ${+v.toPrecision(5)}`,
-    at: [left + (place(u) - x0) / (x1 - x0) * (right - left), bottom + (place(v) - y0) / (y1 - y0) * (top - bottom)],
+    at: [left + (across(u) - x0) / (x1 - x0) * (right - left), bottom + (up(v) - y0) / (y1 - y0) * (top - bottom)],
   })));
   if (!points.length) continue;
   const ring = document.createElementNS(svg.namespaceURI, "circle");

@@ -56,8 +56,8 @@ impl RoughScene {
         (surface.generate, surface.heights) = (None, None);
         surface.file = path.file_name().map(PathBuf::from);
         if surface.file.as_ref().is_none_or(|name| name.to_str().is_none()) {
-            let message = format!("{}: the name of the file is no text", path.display());
-            return Err(InputError::new(message).help("rename the file"));
+            let message = format!("{} does not end with the name of a file that is text", path.display());
+            return Err(InputError::new(message).help("name a file of heights or a scene"));
         }
         if let Some(file) = &scene.coefficient {
             let known = like.resolve(file);

@@ -6,8 +6,9 @@
 
 use super::row::Run;
 use super::vary::Vary;
+use crate::draw::axis::Axis;
 use crate::draw::chart::{
-    self, Axis, Chart, FINE_PIXELS, Failure, INK, Paper, SIZE, Sample, Series, axes, framed, rgb,
+    self, Chart, FINE_PIXELS, Failure, INK, Paper, SIZE, Sample, Series, axes, framed, rgb,
 };
 use crate::draw::palette::{VIRIDIS, interpolated};
 use plotters::prelude::*;
@@ -137,7 +138,7 @@ fn dots(along: &[Along], heights: &[f64], column: &str, joined: bool) -> Result<
     let place = |i: usize| if first.logarithmic { first.places[i].log10() } else { first.places[i] };
     framed(SIZE, &legend, |paper: &Paper| -> Result<(), Failure> {
         let xs = || (0..heights.len()).map(place);
-        let x = if first.logarithmic { Axis::decades(xs()) } else { Axis::covering(xs()) };
+        let x = if first.logarithmic { Axis::logarithmic(xs()) } else { Axis::covering(xs()) };
         let mut area = axes(paper, [x, Axis::covering(heights.iter().copied())], [&first.name, column])?;
         if joined {
             let mut points: Vec<(f64, f64)> = xs().zip(heights.iter().copied()).collect();

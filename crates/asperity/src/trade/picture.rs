@@ -1,9 +1,9 @@
-//! `trade.svg`: error against cost, both logarithmic, what each knob buys around each level, and the Pareto
-//! front.
+//! `trade.svg`: error against cost, both logarithmic, each knob around each level, and the Pareto front.
 
 use super::row::TradeRow;
 use super::settings::{Knob, LEVELS};
-use crate::draw::chart::{Axis, FINE_PIXELS, Failure, INK, Paper, Sample, axes, font, framed, rgb};
+use crate::draw::axis::Axis;
+use crate::draw::chart::{FINE_PIXELS, Failure, INK, Paper, Sample, axes, font, framed, rgb};
 use crate::draw::palette::LINES;
 use asperity_simulation::scene::Accuracy;
 use plotters::prelude::*;
@@ -27,8 +27,7 @@ const fn mark(knob: Knob, name: &'static str, corners: i32, start: f64, inner: f
     Mark { knob, name, corners, start, inner }
 }
 
-/// The knobs in the order of the legend. They differ in shape and in colour, so that either alone tells them
-/// apart.
+/// The knobs in the order of the legend. They differ in shape and in colour: either alone is enough.
 const MARKS: [Mark; 6] = [
     mark(Knob::Mesh, "mesh", 32, 0.0, 1.0),
     mark(Knob::Step, "load step", 4, 45.0, 1.0),
@@ -62,9 +61,9 @@ pub fn draw(rows: &[TradeRow]) -> Result<String, String> {
 }
 
 fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
-    let axis = |of: fn((f64, f64)) -> f64| Axis::decades(rows.iter().filter_map(place).map(of));
+    let axis = |of: fn((f64, f64)) -> f64| Axis::logarithmic(rows.iter().filter_map(place).map(of));
     let (x, y) = (axis(|p| p.0), axis(|p| p.1));
-    let right = x.high - 0.15 * (x.high - x.low);
+    let left = x.low + 0.12 * (x.high - x.low);
     let mut area = axes(paper, [x, y], ["Cost (core seconds)", "Largest error of the force (%)"])?;
     let of = |knob: Knob| rows.iter().filter(move |r| r.knob == knob);
     let base = |level: Accuracy| of(Knob::Level).find(|r| r.around == Some(level)).and_then(place);
@@ -94,12 +93,12 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
     for row in of(Knob::Level) {
         let (Some(p), Some(level)) = (place(row), row.around) else { continue };
         let name = if LEVELS.contains(&level) { level.to_string() } else { String::new() };
-        // names of marks near the right side stand before them
-        let (side, shift) = if p.0 > right { (HPos::Right, -10) } else { (HPos::Left, 10) };
+        // names stand below the front, where no row can be, and before their marks where there is room
+        let (side, shift) = if p.0 > left { (HPos::Right, -8) } else { (HPos::Left, 8) };
         let style = font(16).pos(Pos::new(side, VPos::Top));
         area.draw_series([EmptyElement::at(p)
             + Circle::new((0, 0), 7 * FINE_PIXELS as i32, INK.stroke_width(2 * FINE_PIXELS))
-            + Text::new(name, (shift * FINE_PIXELS as i32, -18 * FINE_PIXELS as i32), style)])?;
+            + Text::new(name, (shift * FINE_PIXELS as i32, 4 * FINE_PIXELS as i32), style)])?;
     }
     Ok(())
 }

@@ -50,3 +50,21 @@ fn lines_of_one_name_share_their_entry() {
     let svg = svg(&Chart::new("x", "y", [end(1.0), end(2.0)])).unwrap();
     assert_eq!(svg.matches("95 % interval").count(), 1);
 }
+
+/// Each axis is logarithmic for itself: the mark lies where the window says.
+#[test]
+fn one_axis_may_be_logarithmic_alone() {
+    let line = Series::line("F", vec![[0.5, 1.0], [30.0, 7.0]]).marked();
+    for logarithmic in [[true, false], [false, true], [true, true]] {
+        let chart = Chart { logarithmic, ..Chart::new("x", "y", [line.clone()]) };
+        let (svg, window) = located(&chart).unwrap();
+        let place = |value: f64, k: usize| if logarithmic[k] { value.log10() } else { value };
+        let ([left, top, right, bottom], [x0, y1, x1, y0]) = (window.frame, window.range);
+        let x = left + (place(30.0, 0) - x0) / (x1 - x0) * (right - left);
+        let y = bottom + (place(7.0, 1) - y0) / (y1 - y0) * (top - bottom);
+        let mark = svg.rsplit("<circle ").next().unwrap();
+        let [cx, cy] = ["cx", "cy"].map(|name| numbers(&format!(" {mark}"), name)[0]);
+        // the library draws at whole numbers of these units
+        assert!((cx - x).abs() <= 0.51 && (cy - y).abs() <= 0.51, "{logarithmic:?}: {cx} {x} {cy} {y}");
+    }
+}
