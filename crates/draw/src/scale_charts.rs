@@ -8,10 +8,14 @@ use asperity_roughness::scales::{By, Numbers, Scales};
 /// A number of a contact over which a chart is drawn, and its unit in SI.
 type Column = (fn(&Numbers) -> Option<f64>, f64);
 
+/// Share of the largest density below which a wave is there by rounding alone.
+const ROUNDED: f64 = 1e-20;
+
 /// The charts of `found` with the names of their files; those without a point are left out.
 pub fn scale_charts(found: &Scales) -> Vec<(&'static str, Chart)> {
+    let largest = found.spectrum.iter().filter_map(|point| point.areal).fold(0.0, f64::max);
     let spectrum = found.spectrum.iter().filter_map(|point| {
-        let density = point.areal.filter(|density| *density > 0.0)?;
+        let density = point.areal.filter(|density| *density > ROUNDED * largest)?;
         Some([point.frequency * 1e-6, density * 1e24])
     });
     let spectrum = Series::line("mean over all directions", spectrum.collect());
