@@ -29,8 +29,8 @@ enum Ticks {
     Even(f64),
     /// Powers of ten, every so many.
     Powers(f64),
-    /// 1, 2 and 5 times each power of ten.
-    Rungs,
+    /// 1, 2 and 5 times each power of ten, from one [`rung`] to another.
+    Rungs(i64, i64),
 }
 
 impl Axis {
@@ -61,7 +61,7 @@ impl Axis {
         let last = last.max(first + 1);
         let (low, high) = (rung(first), rung(last));
         let every = ((high - low) / STEPS).ceil().max(1.0);
-        let ticks = if last - first < RUNGS { Ticks::Rungs } else { Ticks::Powers(every) };
+        let ticks = if last - first < RUNGS { Ticks::Rungs(first, last) } else { Ticks::Powers(every) };
         Axis { low, high, ticks }
     }
 }
@@ -83,11 +83,7 @@ impl Ranged for Axis {
     fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
         match self.ticks {
             Ticks::Even(step) | Ticks::Powers(step) => scale::multiples(self.low, self.high, step),
-            Ticks::Rungs => {
-                let from = 3 * self.low.floor() as i64;
-                let rungs = (from..).map(rung).take_while(|v| *v <= self.high + CLOSE);
-                rungs.filter(|v| *v >= self.low - CLOSE).collect()
-            }
+            Ticks::Rungs(first, last) => (first..=last).map(rung).collect(),
         }
     }
 
