@@ -5,7 +5,6 @@
 
 mod common;
 
-use assert_cmd::Command;
 use common::Place;
 use std::path::Path;
 
@@ -68,11 +67,7 @@ fn the_rust_program_of_the_front_page_is_an_example_that_runs() {
         blocks("rust"),
         [example.split_once("\n\nuse ").map(|(_, rest)| format!("use {rest}")).unwrap()]
     );
-    let run = Command::new(env!("CARGO"))
-        .args(["run", "--release", "--quiet", "-p", "asperity", "--example", "front_page"])
-        .output()
-        .unwrap();
-    let printed = String::from_utf8(run.stdout).unwrap();
+    let printed = common::printed_by_the_example("front_page");
     let force: f64 = printed.strip_suffix(" N\n").unwrap().parse().unwrap();
     // the force of the paper's asperity at 5 um, from two other codes: 5.51 N
     assert!((force / 5.51 - 1.0).abs() < 0.01, "{force}");

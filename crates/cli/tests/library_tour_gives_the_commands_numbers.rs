@@ -8,7 +8,6 @@
 
 mod common;
 
-use assert_cmd::Command;
 use common::{Place, SCENE};
 
 const SWEEP: &str = "slopes_deg = [8]\nyoungs_modulus = [\"210 GPa\"]\nyield_stress = [\"200 MPa\", \"400 MPa\", \"800 MPa\"]\n\
@@ -53,10 +52,6 @@ fn the_example_prints_what_the_commands_write() {
     for (closure, ratio) in closures.into_iter().zip(column(&table, "contact_area_ratio")) {
         expected.push(format!("{closure} {}", parsed(ratio)));
     }
-    let run = Command::new(env!("CARGO"))
-        .args(["run", "--release", "--quiet", "-p", "asperity", "--example", "library_tour"])
-        .output()
-        .unwrap();
-    let printed = String::from_utf8(run.stdout).unwrap();
+    let printed = common::printed_by_the_example("library_tour");
     assert_eq!(printed.lines().collect::<Vec<_>>(), expected);
 }
