@@ -95,8 +95,8 @@ pub fn browser() -> Option<&'static str> {
     found
 }
 
-/// What an example of the library prints. Cargo builds it beside all that the tests are built of: chosen by its
-/// package alone it would have other features of its dependencies, and most of them would be built again.
+/// What an example of the library prints. Cargo builds it beside all that the tests are built of: chosen by
+/// its package alone it would have other features of its dependencies, and most of them would be built again.
 pub fn printed_by_the_example(name: &str) -> String {
     let run = Command::new(env!("CARGO"))
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
