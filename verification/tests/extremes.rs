@@ -11,6 +11,7 @@
 // in a test a panic is the message, and the table is the point
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use asperity_formats::units::rounded;
 use asperity_material::HardeningMode;
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::record::curve::Curve;
@@ -445,7 +446,11 @@ fn extreme_scenes_converge_or_stop_with_a_reason() {
         };
         println!(
             "| {} | {end} | {ratio} | {} | {:.1e} | {} | {} |",
-            row.name, row.bound, summary.energy_balance_error, summary.increments, summary.cutbacks
+            row.name,
+            rounded(row.bound, 2),
+            summary.energy_balance_error,
+            summary.increments,
+            summary.cutbacks
         );
         if !finite || !good {
             failures.push(row.name);

@@ -192,7 +192,7 @@ const CONE: &str = "tool = { shape = \"cone\", half_apex_deg = 70.3 }\nmodel_err
 pub fn section(report: &mut Report, folder: &Path, book: &Book) {
     let all = simulations(folder, book);
     let Some(fitted) = formulas(report, &all) else { return };
-    report.section("Metals of the simulations found again");
+    report.section("Metals of the published simulations");
     report.table(HEAD);
     let best = |solved: &[Solved]| -> Vec<Row> { solved.iter().map(Solved::best_identified).collect() };
     for (slope, modulus, given) in [

@@ -38,7 +38,7 @@ impl Identification {
         };
         let parameters: Vec<_> = self.parameters.iter().map(parameter).collect();
         let caption = if self.residual.fits {
-            "What was sought, with 95 % intervals by the fit. How often they held for known metals: Metals found again, a page of the book."
+            "What was sought, with 95 % intervals by the fit. How often they held for known metals: \"Identified metals\", a page of the book."
         } else {
             "No metal explains the measurements: these are the nearest values, and they have no intervals."
         };
