@@ -107,6 +107,12 @@ impl Chart {
     pub fn titled(self, title: impl Into<String>) -> Chart {
         Chart { title: title.into(), ..self }
     }
+
+    /// The same with logarithmic axes, across and upward.
+    #[must_use]
+    pub fn logarithmic(self, logarithmic: [bool; 2]) -> Chart {
+        Chart { logarithmic, ..self }
+    }
 }
 
 /// Width and height of the axes with their names in pixels; 15 pixels of 540 are more than 9 on a phone.

@@ -49,6 +49,15 @@ pub fn with_deviation(s: Spread) -> String {
     format!("{} ± {}", significant(s.mean), with_digits(s.deviation, 2))
 }
 
+/// A value with its error: two digits of the error, and of the value those that it leaves. Without an error
+/// that is known, the value alone.
+pub fn with_error(value: f64, error: f64) -> String {
+    if !(error > 0.0 && error.is_finite()) {
+        return significant(value);
+    }
+    format!("{value:.*} ± {}", decimals(error, 2), rounded(error))
+}
+
 /// A mean and its standard deviation to `digits` after the point, or a dash.
 pub fn spread(value: Option<Spread>, digits: usize) -> String {
     let Some(s) = value else { return "–".into() };
@@ -87,6 +96,13 @@ pub fn if_any<T: ToString>(value: Option<T>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_has_no_digit_that_its_error_denies() {
+        let shown = [(15.625, 12.637), (1280.3, 107.0), (5.5561, 0.0605), (-0.4, 0.0), (2.0, f64::NAN)];
+        let shown = shown.map(|(value, error)| with_error(value, error));
+        assert_eq!(shown, ["16 ± 13", "1280 ± 107", "5.556 ± 0.060", "-0.4000", "2.000"]);
+    }
 
     #[test]
     fn small_numbers_keep_four_digits() {

@@ -24,11 +24,9 @@ pub fn scale_charts(found: &Scales) -> Vec<(&'static str, Chart)> {
     let charts = [
         (
             "spectrum.svg",
-            Chart {
-                logarithmic: [true; 2],
-                ..Chart::new("frequency (1/µm)", "density (µm⁴)", [spectrum])
-                    .titled("Power spectrum of the whole map")
-            },
+            Chart::new("frequency (1/µm)", "density (µm⁴)", [spectrum])
+                .titled("Power spectrum of the whole map")
+                .logarithmic([true; 2]),
         ),
         ("slope.svg", over_cutoff("rms slope", "Rms slope of the waves above the cut-off", [slopes])),
         (
@@ -60,7 +58,7 @@ pub fn scale_charts(found: &Scales) -> Vec<(&'static str, Chart)> {
 }
 
 fn over_cutoff(label: &str, title: &str, lines: impl IntoIterator<Item = Series>) -> Chart {
-    Chart { logarithmic: [true, false], ..Chart::new("cut-off (µm)", label, lines).titled(title) }
+    Chart::new("cut-off (µm)", label, lines).titled(title).logarithmic([true, false])
 }
 
 /// Colour and dash of a contact: a closure has its colour of every chart, a theory that of the half-space

@@ -13,6 +13,11 @@ use maud::{Markup, html};
 /// Plastic strains at which the report tells the stress.
 const STRAINS: [f64; 3] = [0.02, 0.05, 0.1];
 
+/// The key of a quantity in words.
+fn in_words(key: &str) -> String {
+    key.replace('_', " ").replace("youngs", "Young's")
+}
+
 impl Identification {
     /// The identification as one page that stands alone: the verdict, every number with its interval,
     /// measured points and fit, the stress-strain curve with its band.
@@ -30,7 +35,7 @@ impl Identification {
                 (false, false) => "no",
             };
             vec![
-                html! { (name.replace('_', " ")) (unit) },
+                html! { (in_words(name)) (unit) },
                 at("value"),
                 self.interval(html! { (at("low")) " to " (at("high")) }),
                 html! { (told) },
@@ -136,7 +141,7 @@ impl Identification {
     /// Widening of the intervals without each of several measurements.
     fn decisions(&self) -> Markup {
         let row = |measurement: &String, (name, by): (&String, &f64)| {
-            vec![html! { (measurement) }, html! { (name.replace('_', " ")) }, html! { (significant(*by)) }]
+            vec![html! { (measurement) }, html! { (in_words(name)) }, html! { (significant(*by)) }]
         };
         let of_one = |d: &Decided| d.widening.iter().map(|w| row(&d.measurement, w)).collect::<Vec<_>>();
         let rows: Vec<_> = self.decided.iter().flat_map(of_one).collect();

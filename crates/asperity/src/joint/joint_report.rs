@@ -130,13 +130,13 @@ impl Joint {
         let stiffness = self.banded("elastic stiffness", |row| row.elastic_stiffness_MPa_per_um);
         let stiffness = Chart::new("nominal pressure (MPa)", "elastic stiffness (MPa/µm)", [stiffness])
             .titled("Elastic stiffness of the joint as it stands, with the band of its error");
-        let logarithmic = |chart: Chart| Chart { logarithmic: [true; 2], ..chart };
-        let mut charts = vec![("pressure.svg", pressure), ("stiffness.svg", logarithmic(stiffness))];
+        let mut charts =
+            vec![("pressure.svg", pressure), ("stiffness.svg", stiffness.logarithmic([true; 2]))];
         if self.summary.conductivity_W_per_mK.is_some() {
             let heat = self.banded("thermal conductance", |row| row.conductance_W_per_m2K);
             let chart = Chart::new("nominal pressure (MPa)", "thermal conductance (W/(m² K))", [heat]);
             let chart = chart.titled("Thermal conductance, with the band of its error");
-            charts.push(("conductance.svg", logarithmic(chart)));
+            charts.push(("conductance.svg", chart.logarithmic([true; 2])));
         }
         charts
     }

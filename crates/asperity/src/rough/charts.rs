@@ -102,7 +102,7 @@ pub fn travel_chart(curves: impl IntoIterator<Item = (Closure, [Vec<[f64; 2]>; 2
 /// either end would leave the rest one spike.
 const SHOWN_AREA: f64 = 0.99;
 
-/// Logarithm of pressure over nominal pressure of each pixel in contact, with its contact area, rising.
+/// Logarithm of pressure over nominal pressure of each pixel in contact, with its contact area.
 fn pressures(one: &ClosureContact) -> Vec<(f64, f64)> {
     let ratio = |pressure: f32| (f64::from(pressure) / one.nominal).log10();
     let mut found: Vec<(f64, f64)> = match &one.body {
@@ -113,21 +113,36 @@ fn pressures(one: &ClosureContact) -> Vec<(f64, f64)> {
         Body::Failed(_) => Vec::new(),
     };
     found.retain(|(ratio, area)| ratio.is_finite() && *area > 0.0);
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found
 }
 
-/// The ends between which [`SHOWN_AREA`] of the contact lies, as much below as above them.
+/// Contact area in each of `N` steps of `width` from `start` on.
+fn areas<const N: usize>(pressures: &[(f64, f64)], start: f64, width: f64) -> [f64; N] {
+    let mut steps = [0.0; N];
+    for (ratio, area) in pressures.iter().filter(|(ratio, _)| *ratio >= start) {
+        if let Some(step) = steps.get_mut(((ratio - start) / width) as usize) {
+            *step += area;
+        }
+    }
+    steps
+}
+
+/// The ends between which [`SHOWN_AREA`] of the contact lies, as much below as above them, to a thousandth of
+/// the range.
 fn shown_ends(pressures: &[(f64, f64)]) -> [f64; 2] {
-    let total: f64 = pressures.iter().map(|(_, area)| area).sum();
-    let tail = 0.5 * (1.0 - SHOWN_AREA);
-    [tail, 1.0 - tail].map(|share| {
+    const FINE_STEPS: usize = 1024;
+    let ends = |[low, high]: [f64; 2], (ratio, _): &(f64, f64)| [low.min(*ratio), high.max(*ratio)];
+    let [low, high] = pressures.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+    let width = ((high - low) / (FINE_STEPS as f64 - 1.0)).max(f64::EPSILON);
+    let steps = areas::<FINE_STEPS>(pressures, low - 0.5 * width, width);
+    let total: f64 = steps.iter().sum();
+    [0.5 * (1.0 - SHOWN_AREA), 0.5 * (1.0 + SHOWN_AREA)].map(|share| {
         let mut below = 0.0;
-        let end = pressures.iter().find(|(_, area)| {
-            below += area;
-            below >= share * total
+        let before = steps.iter().take_while(|area| {
+            below += **area;
+            below < share * total
         });
-        end.or(pressures.last()).map_or(0.0, |(ratio, _)| *ratio)
+        low + width * before.count() as f64
     })
 }
 
@@ -135,28 +150,20 @@ fn shown_ends(pressures: &[(f64, f64)]) -> [f64; 2] {
 /// closures differ in their pressures by factors.
 fn histogram(contacts: &[ClosureContact]) -> Chart {
     const STEPS: usize = 60;
-    let loaded = contacts.iter().filter(|one| one.nominal > 0.0);
-    let found: Vec<_> = loaded
-        .map(|one| (one.closure, pressures(one)))
-        .filter(|(_, pressures)| !pressures.is_empty())
-        .collect();
+    let loaded = contacts.iter().filter(|one| one.nominal > 0.0).map(|one| (one.closure, pressures(one)));
+    let found: Vec<_> = loaded.filter(|(_, pressures)| !pressures.is_empty()).collect();
     let ends = found.iter().map(|(_, pressures)| shown_ends(pressures));
     let [low, high] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     // a step at either end holds what lies on it
     let width = if high > low { (high - low) / (STEPS as f64 - 1.0) } else { 0.1 };
-    let start = low - 0.5 * width;
     let series = found.iter().map(|(closure, pressures)| {
         let total: f64 = pressures.iter().map(|(_, area)| area).sum();
-        let mut bins = [0.0; STEPS];
-        for (ratio, area) in pressures.iter().filter(|(ratio, _)| *ratio >= start) {
-            if let Some(bin) = bins.get_mut(((ratio - start) / width) as usize) {
-                *bin += area;
-            }
-        }
-        let points = bins.iter().enumerate().map(|(i, b)| [low + i as f64 * width, 100.0 * b / total]);
+        let steps = areas::<STEPS>(pressures, low - 0.5 * width, width);
+        let place = |i: usize| 10_f64.powf(low + i as f64 * width);
+        let points = steps.iter().enumerate().map(|(i, area)| [place(i), 100.0 * area / total]);
         Series::of_closure(*closure, false, points.collect())
     });
-    let share = format!("contact area per step of {width:.2} (%)");
-    Chart::new("log₁₀ of pressure over nominal pressure", share, series)
+    Chart::new("pressure over nominal pressure", "contact area per step (%)", series)
         .titled("Distribution of the pressure over the contact; of each closure at least 99 % of its area")
+        .logarithmic([true, false])
 }

@@ -1,12 +1,11 @@
-//! The sentence at the end of a run: area, the closure to believe, gap, and whether and how much it leaks.
+//! The findings at the end of a run, one a line: area, the closure to believe, gap, how much it leaks.
 
 use super::half_space::{CONTRADICTION, SpaceContact, area_error};
-use crate::results::numbers::{rounded, significant, with_digits};
+use crate::results::numbers::{rounded, significant, with_digits, with_error};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::ClosureContact;
 use crate::rough::contact::Rough;
 use asperity_roughness::Closure;
-use asperity_roughness::flow::Axis;
 use asperity_roughness::scene::Fluid;
 use std::fmt::Write;
 
@@ -19,12 +18,10 @@ const KNOWN_AREA_ERROR: f64 = 0.05;
 const MAX_LOAD_OUTSIDE: f64 = 0.2;
 
 impl Rough {
-    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands
-    /// carries that asked for; `None` where there is neither.
+    /// The findings of the half-space, and the load that a closure could carry where none carries that asked.
     pub fn verdict(&self) -> Option<String> {
-        let said = [self.of_half_space(), overload(&self.contacts)];
-        let said: Vec<String> = said.into_iter().flatten().collect();
-        (!said.is_empty()).then(|| said.join(" "))
+        let said: Vec<_> = [self.of_half_space(), overload(&self.contacts)].into_iter().flatten().collect();
+        (!said.is_empty()).then(|| said.join("\n"))
     }
 
     fn of_half_space(&self) -> Option<String> {
@@ -34,49 +31,42 @@ impl Rough {
             .or_else(|| self.contact(Closure::HalfSpace))?;
         let space = best.space()?;
         let area = &space.contact.area;
-        let mut text = format!(
-            "{}: true contact on {:.3} ± {:.3} % of the area",
-            best.name(),
-            100.0 * area.corrected,
-            100.0 * space.area_error()
-        );
+        let share = with_error(100.0 * area.corrected, 100.0 * space.area_error());
+        let mut found = vec![format!("{}: true contact on {share} % of the area", best.name())];
         if space.saturated() {
-            text += "; saturated: that is load over limit of pressure, whatever the roughness";
+            found.push("saturated: that is load over limit of pressure, whatever the roughness".into());
         }
-        text += &limit_in_words(space);
-        if let Some(belief) = belief(&self.contacts, best) {
-            let _ = write!(text, "; {belief}");
-        }
-        let _ = write!(text, "; mean gap {} µm", with_digits(space.contact.mean_gap / MICROMETRE, 3));
-        for (k, axis) in [Axis::X, Axis::Y].into_iter().enumerate() {
-            let _ = write!(text, "; {}", passage(space, k, axis, self.summary.scene.fluid.as_ref()));
+        found.extend(limit_in_words(space));
+        found.extend(belief(&self.contacts, best));
+        found.push(format!("mean gap {} µm", with_digits(space.contact.mean_gap / MICROMETRE, 3)));
+        for (k, name) in ["x", "y"].into_iter().enumerate() {
+            found.push(passage(space, k, name, self.summary.scene.fluid.as_ref()));
         }
         if !space.flows && space.passages.iter().any(|p| p.narrowest.is_some()) {
-            text += match self.summary.scene.half_space.leak {
-                Some(_) => "; how much leaks is not computed: the scene has half_space.leak = false",
-                None => {
-                    "; how much leaks is not computed beside other closures: --set half_space.leak=true, or a [fluid] table"
-                }
+            let why = match self.summary.scene.half_space.leak {
+                Some(_) => ": the scene has half_space.leak = false",
+                None => " beside other closures: --set half_space.leak=true, or a [fluid] table",
             };
+            found.push(format!("how much leaks is not computed{why}"));
         }
-        text.push('.');
-        Some(text)
+        Some(found.join("\n  "))
     }
 }
 
 /// The limit of pressure of `space`, where its source says more than the scene does.
-fn limit_in_words(space: &SpaceContact) -> String {
-    let Some(limit) = space.limit else { return String::new() };
+fn limit_in_words(space: &SpaceContact) -> Option<String> {
+    let limit = space.limit?;
     let [pressure, error] = [limit.pressure, limit.error * limit.pressure].map(|p| p / MEGAPASCAL);
     match (space.limit_slope_deg(), limit.rival) {
-        (Some(slope), _) => format!(
-            "; no point carries more than {pressure:.0} ± {error:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches"
-        ),
-        (None, Some(rival)) if limit.contradiction() > CONTRADICTION => format!(
-            "; no point carries more than the hardness, {pressure:.0} MPa, where yield stress and hardening say {:.0} MPa: two metals",
+        (Some(slope), _) => Some(format!(
+            "no point carries more than {} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches",
+            with_error(pressure, error)
+        )),
+        (None, Some(rival)) if limit.contradiction() > CONTRADICTION => Some(format!(
+            "no point carries more than the hardness, {pressure:.0} MPa, where yield stress and hardening say {:.0} MPa: two metals",
             rival / MEGAPASCAL
-        ),
-        _ => String::new(),
+        )),
+        _ => None,
     }
 }
 
@@ -109,8 +99,7 @@ fn belief(contacts: &[ClosureContact], best: &ClosureContact) -> Option<String> 
         ratio: one.contact.area_ratio / area.corrected,
         outside: one.contact.outside_share.unwrap_or(0.0),
     });
-    let judged: Vec<ComparedClosure> =
-        judged.filter(|one| one.ratio.is_finite() && one.ratio > 0.0).collect();
+    let judged: Vec<_> = judged.filter(|one| one.ratio.is_finite() && one.ratio > 0.0).collect();
     judgement(&judged, best.name(), error, two_metals > KNOWN_AREA_ERROR)
 }
 
@@ -137,8 +126,8 @@ fn judgement(judged: &[ComparedClosure], by: &str, error: f64, two_metals: bool)
             ("pixels alone", "measure finer, or smooth with s_filter")
         };
         return Some(format!(
-            "which closure to believe cannot be judged here: {why} leave that area uncertain by {:.1} %, more than {:.0} % ({way_out}; the nearest, {name}, has an area {off:+.0} % off that of {by})",
-            100.0 * error,
+            "which closure to believe cannot be judged here: {why} leave that area uncertain by {} %, more than {:.0} % ({way_out}; the nearest, {name}, has an area {off:+.0} % off that of {by})",
+            rounded(100.0 * error),
             100.0 * KNOWN_AREA_ERROR
         ));
     }
@@ -157,8 +146,7 @@ fn judgement(judged: &[ComparedClosure], by: &str, error: f64, two_metals: bool)
     Some(format!("of the closures believe {name} here (its area is {off:+.0} % off that of {by})"))
 }
 
-fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) -> String {
-    let name = if axis == Axis::X { "x" } else { "y" };
+fn passage(space: &SpaceContact, k: usize, name: &str, fluid: Option<&Fluid>) -> String {
     if let Some(unknown) = space.passages[k].unknown {
         let filled = match unknown.filled {
             Some(place) => format!(
@@ -225,7 +213,7 @@ mod tests {
         assert!(said(0.95, 0.0, 0.02).starts_with("of the closures believe near"));
         assert!(said(0.95, 0.0, 0.02).contains("off that of half-space"));
         assert!(said(0.8, 0.0, 0.02).starts_with("believe none"));
-        assert!(said(0.95, 0.0, 0.22).contains("pixels alone leave that area uncertain by 22.0 %"));
+        assert!(said(0.95, 0.0, 0.22).contains("pixels alone leave that area uncertain by 22 %"));
         assert!(said(0.95, 0.6, 0.02).contains("60 % of its load"));
         assert_eq!(known_to(0.123), "(± 12 %)");
         assert!(
