@@ -49,7 +49,7 @@ impl Rough {
             };
             found.push(format!("how much leaks is not computed{why}"));
         }
-        Some(found.join("\n  "))
+        Some(found.join("\n  - "))
     }
 }
 
